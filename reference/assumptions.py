@@ -19,7 +19,7 @@ from ..cases.trajectory import Array, Trajectory
 from .mechanism.modes.mechanism import Mechanism
 from .motion.event_location import TOUCH
 from .motion.follow import Followed, Touch
-from .start.sizes import size_of
+from .start.assembly import size_of
 from .system import Pose, System
 
 STILL = 1e-9  # of the motion's size: smaller changes are no motion

@@ -25,9 +25,9 @@ from .mechanism.modes.mode_selection import Undetermined
 from .mechanism.modes.simultaneous_impacts import OneInstant
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
+from .start.assembly import size_of
 from .start.closure import Closure
-from .start.positions import rank
-from .start.sizes import size_of
+from .start.search import rank
 from .start.space.closure import SpatialClosure
 from .system import Array, Pose
 

@@ -27,7 +27,7 @@ from .mechanism.modes.mechanism import Mechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .refusal import bounded, refusals, unreached
-from .start.mechanism import mechanism
+from .start.assembly import mechanism
 from .states.answer import answered
 from .system import Pose, System
 from .systems import written as written_system

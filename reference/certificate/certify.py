@@ -22,7 +22,7 @@ from ..integrators.radau import radau_table
 from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
-from ..start.sizes import size_of
+from ..start.assembly import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
 from .constraint_check import constraint_checks

@@ -1,22 +1,44 @@
-"""The start of a scene: what the case gives, and what the constraints make of it.
+"""The start of a case: what it gives, what the constraints make of that, and the mechanism there.
 
-Positions by Newton's method from a guess, rates by linear algebra.
+Positions by Newton's method from guesses, rates by linear algebra; in the plane and in space.
 """
 
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.scene import Scene
 from ...cases.scene.frame import SPACE
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.kinematics.spatial_coordinates import SpatialCoordinates
+from ..mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from ..system import Array, Pose
 from . import refusal
 from .closure import Closure
-from .positions import RANK, positions, rank
+from .positions import positions
 from .rates import rates
-from .space.assembly import assemble_in_space
+from .search import RANK, rank
+from .space import refusal as spatial_refusal
+from .space.closure import SpatialClosure, size_in_space
+from .space.positions import positions as spatial_positions
+from .space.rates import rates as spatial_rates
 
 SHORT = 1e-9  # of the mechanism's size: a rod of that length has no direction
+
+
+def mechanism(case: Case) -> Mechanism:
+    """The mechanism of a case's scene at its start. Raises CaseError as `assemble` does."""
+    if case.scene.frame is SPACE:
+        return SpatialMechanism(case.scene, assemble_in_space(case, case.scene))
+    q, v = assemble(case)
+    inner = [force.begins for force in case.scene.inner().values()]
+    return PlanarMechanism(case.scene, (np.append(q, inner), v), size_of(case))
+
+
+def size_of(case: Case) -> float:
+    """The largest length [m] on a body, wherever the scene stands; without one, the reach."""
+    if case.scene.frame is SPACE:
+        return size_in_space(case, case.scene)
+    return Closure(case).size
 
 
 def assemble(case: Case) -> tuple[Array, Array]:
@@ -38,6 +60,16 @@ def start_poses(case: Case) -> dict[str, Pose]:
         q, v = assemble_in_space(case, case.scene)
         return SpatialCoordinates(case.scene).poses(q, v)
     return Coordinates(case.scene).poses(*assemble(case))
+
+
+def assemble_in_space(case: Case, scene: Scene) -> tuple[Array, Array]:
+    """q (m,) and v (n,) at t = 0 in space. Raises CaseError as `assemble` does."""
+    closure = SpatialClosure(case, scene)
+    q = spatial_positions(closure)
+    part = closure.dependent(q, RANK)
+    if part is not None:
+        raise spatial_refusal.dependent(closure, part)
+    return q, spatial_rates(closure, q)
 
 
 def _long(closure: Closure, q: Array) -> None:

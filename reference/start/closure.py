@@ -24,6 +24,7 @@ from ..system import Array
 from .posed import moving, posed
 
 POSITIONS = {"x": 0, "y": 1, "angle": 2}
+FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
 RATES = {"vx": 0, "vy": 1, "omega": 2}
 
 
@@ -83,6 +84,33 @@ class Closure:
         numbers = q.tolist()
         residual = [entry for c in self.places for entry in self._residual(c, numbers)]
         return np.array(residual), self.rows(self.places, q)
+
+    def moved(self, q: Array, change: Array) -> Array:
+        """q after a change (n,)."""
+        return q + change
+
+    def settled(self, q: Array) -> Array:
+        """q with angles that nobody gave in (−π, π], or next to their guess; held ones follow."""
+        near = self.numbers(self.case.near, POSITIONS)
+        known = dict(self.given)
+        for i in self.free[self.turning[self.free]].tolist():
+            if i not in known:
+                base = near.get(i, 0.0)
+                turned = math.remainder(q[i] - base, math.tau)
+                known[i] = base + (turned if turned > FULL_TURN - math.pi else turned + math.tau)
+                known = held_angles(self.locks, known)
+        q = q.copy()
+        q[list(known)] = list(known.values())
+        return q
+
+    def apart(self, a: Array, b: Array) -> float:
+        """The largest difference of two solutions, in sizes and rad."""
+        off = (a - b).tolist()
+        return max(abs(self.turned(i, x)) / self.units[i] for i, x in enumerate(off))
+
+    def turned(self, column: int, difference: float) -> float:
+        """The difference of two values of a coordinate, to whole turns of an angle."""
+        return math.remainder(difference, math.tau) if self.turning[column] else difference
 
     def _residual(self, part: Constraint, q: list[float]) -> list[float]:
         return [

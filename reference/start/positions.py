@@ -1,24 +1,18 @@
-"""The positions at the start: Newton's method from a guess, and the search for a second way."""
+"""The positions at the start in the plane: from what is near, or the only way there is."""
 
 import math
 from collections.abc import Collection, Iterator
+from functools import partial
 
 import numpy as np
 
 from ..mechanism.constraints.constraint import tracked
 from ..system import Array
 from . import messages, refusal
-from .closure import POSITIONS, Closure, held_angles, placed
+from .closure import POSITIONS, Closure, placed
+from .search import BESIDE, DEAD, FAR, NEAR, RANK, SAME, null, rank, search
 
-CLOSED = 1e-12  # residual relative to the largest length; Newton reaches rounding or fails
-RANK = 1e-9  # singular values below this part of the largest count as zero
-DEAD = 1e-5  # and below this, a rounding of 1e-16 already moves the start by more than 1e-11
 SEEDS = 200  # starts from which other assemblies are looked for
-SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
-NEAR = 0.5  # rad or sizes: of ways this close to `near` only nearer ones are looked for
-BESIDE = 20  # starts around it: two ways this close to each other draw about as many each
-FAR = math.pi / 2  # rad, or as many sizes: what `near` says and is so far off, is a mistake
-FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
 
 
 def positions(closure: Closure) -> Array:
@@ -27,22 +21,9 @@ def positions(closure: Closure) -> Array:
     Raises CaseError if there is none, more than one to choose from, or a coordinate is left open.
     """
     wanted = _Near(closure)
-    q, gap = _newton(closure, wanted.guess())
-    nearest = gap, q
-    closed = CLOSED * closure.rounding
-    found = [q] if gap < closed else []
-    seeds = _seeds(closure, SEEDS)
-    if found:
-        _determined(closure, q)
-        if wanted.given and wanted.distance(q) < NEAR:  # but another one may be nearer still
-            seeds = _seeds(closure, BESIDE, around=wanted)
-    for guess in seeds:
-        q, gap = _newton(closure, guess)
-        nearest = min(nearest, (gap, q), key=lambda pair: pair[0])
-        if gap < closed and all(_apart(closure, q, other) > SAME for other in found):
-            found.append(q)
+    found, (_, nearest) = search(closure, partial(_guesses, closure, wanted))
     if not found:
-        raise refusal.cannot_close(closure, nearest[1])
+        raise refusal.cannot_close(closure, nearest)
     found.sort(key=wanted.distance)  # all 0 without `near`
     ways = [q for q in found if wanted.distance(q) < wanted.distance(found[0]) + SAME]
     _determined(closure, ways[0])
@@ -93,12 +74,23 @@ class _Near:
         """
         c = self.closure
         for i, value in self.numbers.items():
-            off = (q[i] - value if turns else _turned(c, i, q[i] - value)) / c.units[i]
+            off = (q[i] - value if turns else c.turned(i, q[i] - value)) / c.units[i]
             yield c.where.names[i], off, refusal.shown(q[i], turns=bool(c.turning[i]))
         for point, at in self.points:
             r = point.places(0.0, q.tolist())
             off = math.hypot(r[0] - at[0], r[1] - at[1]) / c.size
             yield point.part, off, f"[{r[0]:.4g}, {r[1]:.4g}]"
+
+
+def _guesses(closure: Closure, wanted: "_Near", ways: list[Array]) -> Iterator[Array]:
+    """First guesses of q: what is near, and others beside it or anywhere; ways: what was found."""
+    yield wanted.guess()
+    if ways:
+        _determined(closure, ways[0])
+        if wanted.given and wanted.distance(ways[0]) < NEAR:  # but another may be nearer still
+            yield from _seeds(closure, BESIDE, around=wanted)
+            return
+    yield from _seeds(closure, SEEDS)
 
 
 def _seeds(closure: Closure, count: int, around: _Near | None = None) -> Iterator[Array]:
@@ -135,49 +127,6 @@ def _laid_out(closure: Closure, guess: Array, keep: Collection[int] = ()) -> Arr
     return q
 
 
-def _newton(closure: Closure, guess: Array) -> tuple[Array, float]:
-    """The root near the guess, and the residual that is left, in sizes or rad."""
-    q, free = guess.copy(), closure.free
-    for _ in range(50):  # quadratic: more only where nothing closes
-        residual, jacobian = closure.equations(q)
-        gap = float(np.max(np.abs(residual), initial=0.0))
-        if gap < 1e-3 * CLOSED * closure.rounding or not len(free):
-            break
-        change = np.linalg.lstsq(jacobian[:, free], residual, rcond=RANK)[0]
-        largest = float(np.max(np.abs(change)))
-        if largest < 1e-15:
-            break
-        q[free] -= closure.units[free] * change * min(1.0, 1.0 / largest)
-    residual, _ = closure.equations(q)
-    return _wrapped(closure, q), float(np.max(np.abs(residual), initial=0.0))
-
-
-def _wrapped(closure: Closure, q: Array) -> Array:
-    """Angles that nobody gave, brought into (−π, π] or next to their guess; held ones follow."""
-    near = closure.numbers(closure.case.near, POSITIONS)
-    known = dict(closure.given)
-    for i in closure.free[closure.turning[closure.free]].tolist():
-        if i not in known:
-            base = near.get(i, 0.0)
-            turned = math.remainder(q[i] - base, math.tau)
-            known[i] = base + (turned if turned > FULL_TURN - math.pi else turned + math.tau)
-            known = held_angles(closure.locks, known)
-    q = q.copy()
-    q[list(known)] = list(known.values())
-    return q
-
-
-def _apart(closure: Closure, a: Array, b: Array) -> float:
-    """The largest difference of two solutions, in sizes and rad."""
-    return max(
-        abs(_turned(closure, i, x)) / closure.units[i] for i, x in enumerate((a - b).tolist())
-    )
-
-
-def _turned(closure: Closure, column: int, difference: float) -> float:
-    return math.remainder(difference, math.tau) if closure.turning[column] else difference
-
-
 def _determined(closure: Closure, q: Array) -> None:
     """Refuses what leaves coordinates open: for good, or at a dead centre."""
     free = closure.free
@@ -189,20 +138,11 @@ def _determined(closure: Closure, q: Array) -> None:
         raise messages.dead_centre(closure.case, loose)
 
 
-def rank(jacobian: Array, below: float) -> int:
-    """The number of singular values that are not zero."""
-    if not jacobian.size:
-        return 0
-    s = np.linalg.svd(jacobian, compute_uv=False)
-    return int(np.sum(s > below * s[0]))
-
-
 def undetermined(jacobian: Array, names: list[str], below: float) -> list[str]:
     """The names of the unknowns that linear equations leave open."""
     if not jacobian.size:
         return names
-    _, s, vt = np.linalg.svd(jacobian)
-    kept = int(np.sum(s > below * s[0]))
     # What the smallest values that count leave of what is determined is as small as they are.
-    open_ = np.max(np.abs(vt[kept:]), axis=0, initial=0.0) > max(SAME, 10 * below)
+    loose = np.abs(null(jacobian, len(names), below))
+    open_ = np.max(loose, axis=0, initial=0.0) > max(SAME, 10 * below)
     return [name for name, is_open in zip(names, open_, strict=True) if is_open]

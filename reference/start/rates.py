@@ -9,7 +9,8 @@ from ..system import Array
 from . import messages, refusal
 from .closure import RATES, Closure
 from .posed import silent
-from .positions import CLOSED, RANK, rank, undetermined
+from .positions import undetermined
+from .search import CLOSED, RANK, least, rank
 
 
 def rates(closure: Closure, q: Array) -> Array:
@@ -50,7 +51,7 @@ def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list
     scaled = v / closure.units  # in sizes and rad per second
     if not _open(rows, g, scaled)[1]:
         return v[columns]
-    scaled[free] += np.linalg.lstsq(rows[:, free], g - rows @ scaled, rcond=RANK)[0]
+    scaled[free] += least(rows[:, free], g - rows @ scaled)
     residual, violated = _open(rows, g, scaled)
     if violated:
         worst = owners[int(np.argmax(np.abs(residual)))]
@@ -61,7 +62,7 @@ def _of_one(closure: Closure, q: Array, v: Array, columns: list[int], free: list
     if loose := undetermined(rows[:, free], names, RANK):
         left = [i for i, name in zip(free, names, strict=True) if name not in loose]
         scaled[[i for i in free if i not in left]] = 0.0
-        scaled[left] += np.linalg.lstsq(rows[:, left], g - rows @ scaled, rcond=RANK)[0]
+        scaled[left] += least(rows[:, left], g - rows @ scaled)
         if _open(rows, g, scaled)[1]:
             raise refusal.open_ended(closure, loose, rank(rows[:, free], RANK), among=len(free))
     return (scaled * closure.units)[columns]

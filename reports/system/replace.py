@@ -168,7 +168,7 @@ def _finish(decided: Path, folder: Path, names: list[str]) -> None:
 
 
 def _undo(decided: Path, folder: Path, names: list[str]) -> None:
-    """What was moved is put back, from copies that stay: whatever strikes, it is done once more."""
+    """Puts back what was moved, from copies that stay: whatever strikes, it is done once more."""
     for name in names:
         if _stands(decided / NEW / name):
             continue  # it never moved, and may be what the folder refused

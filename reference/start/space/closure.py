@@ -3,8 +3,6 @@
 Lengths are counted in the mechanism's size, so that a watch and a crane are treated alike.
 """
 
-from typing import Any
-
 import numpy as np
 
 from ....cases.case import Case
@@ -13,9 +11,8 @@ from ...mechanism.constraints.constraint import residuals
 from ...mechanism.constraints.equation_table import Table
 from ...mechanism.modes.spatial_mode import SpatialMultibody
 from ...system import Array
+from ..search import rank
 from .initial_conditions import PLACES, Equation, Given
-
-RANK = 1e-9  # singular values below this part of the largest count as zero
 
 
 class SpatialClosure:
@@ -36,24 +33,46 @@ class SpatialClosure:
         self.size = size_in_space(case, scene)
         self.rounding = max(1.0, _reach(case, scene) / self.size)  # of places, in sizes
         self.units = np.where(self.where.turning, 1.0, self.size)
+        self.free = np.arange(self.where.size)
 
-    def equations(self, q: Array) -> tuple[Array, Array, list[str]]:
-        """Residuals (k,) in sizes or rad, their rows (k, n) in these units, and whose they are."""
+    def equations(self, q: Array) -> tuple[Array, Array]:
+        """Residuals (k,) in sizes or rad, and their rows (k, n) in these units."""
         keep = self.holonomic
         residual = np.array(residuals(self.table, self.parts, 0.0, q.tolist()))
         rows = self.rows(q)[0][keep]
-        owners = [name for name, k in zip(self.owners, keep, strict=True) if k]
         scale = np.where(self.angular[keep], 1.0, self.size)
         found = list(self.given.places(self.case.initial, q))
         own = [1.0 if self.about_turn(e) else self.size for e in found]
         residual = np.concatenate([residual, [e.residual for e in found]])
         rows = np.vstack([rows, *(e.row for e in found)])
         scale = np.concatenate([scale, own])
-        return (
-            residual / scale,
-            rows * self.units / scale[:, None],
-            owners + [e.name for e in found],
-        )
+        return residual / scale, rows * self.units / scale[:, None]
+
+    def whose(self, q: Array) -> list[str]:
+        """The name of each residual's part, or of what is given."""
+        owners = [name for name, k in zip(self.owners, self.holonomic, strict=True) if k]
+        return owners + [e.name for e in self.given.places(self.case.initial, q)]
+
+    def moved(self, q: Array, change: Array) -> Array:
+        """q after a small move (n,); quaternions keep the length 1."""
+        q = q + self.where.rates(q, change)
+        for at in self.where.attitudes:
+            q[at] /= np.linalg.norm(q[at])
+        return q
+
+    def settled(self, q: Array) -> Array:
+        """q: attitudes count no turns."""
+        return q
+
+    def apart(self, a: Array, b: Array) -> float:
+        """The largest difference of two solutions, in sizes and rad."""
+        one, other = (self.where.poses(q, np.zeros(self.where.size)) for q in (a, b))
+        far = 0.0
+        for name in one:
+            p, s = np.array(one[name][:7], float), np.array(other[name][:7], float)
+            turned = 2 * np.arccos(min(1.0, abs(float(p[3:] @ s[3:]))))
+            far = max(far, float(np.max(np.abs(p[:3] - s[:3]))) / self.size, turned)
+        return far
 
     def rows(self, q: Array) -> tuple[Array, Array]:
         """(2.15) f_a (r, n) and g (r,) of all that is held."""
@@ -98,25 +117,3 @@ def _reach(case: Case, scene: Scene) -> float:
     reach += [abs(x) for p in starts for key, x in p.given.items() if key in PLACES]
     reach += [abs(x) for p in starts for place in p.points.values() for x in place]
     return max(reach, default=1.0) or 1.0
-
-
-def least(rows: Array, right: Array) -> Array:
-    """(n,) the smallest solution of rows · x = right, or what comes nearest to one."""
-    found: Any = np.linalg.lstsq(rows, right, rcond=RANK)[0]
-    return found
-
-
-def null(rows: Array, n: int, below: float = RANK) -> Array:
-    """(k, n) directions that the rows leave open; singular values `below` count as zero."""
-    if not rows.size:
-        return np.eye(n)
-    _, s, vt = np.linalg.svd(rows)
-    return vt[int(np.sum(s > below * s[0])) :]
-
-
-def rank(rows: Array, below: float = RANK) -> int:
-    """The number of singular values that are not zero: `below` of the largest."""
-    if not rows.size:
-        return 0
-    s = np.linalg.svd(rows, compute_uv=False)
-    return int(np.sum(s > below * s[0]))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -10,23 +11,15 @@ from ....cases.case import Placement
 from ....cases.scene import GROUND
 from ....cases.scene.rotation import about, product
 from ...system import Array
+from ..search import BESIDE, DEAD, FAR, NEAR, SAME, null, search
 from . import refusal
 from .branches import chains, closes, faithful, locked, past_lock, unreached
-from .closure import SpatialClosure, least, null
+from .closure import SpatialClosure
 from .guess import laid_out
 from .initial_conditions import PLACES
 from .ways import alike, distance, none_near, several_ways, unnamed
 
-DEAD = 1e-5  # singular values below this part of the largest: there rounding moves the start
-CLOSED = 1e-12  # residual in sizes or rad; Newton reaches rounding or fails
 SEEDS = 40  # starts from which other assemblies are looked for
-SAME = 1e-6  # solutions nearer than this (in sizes and rad) are the same one
-NEAR = 0.5  # rad or sizes: of ways this close to `near` only nearer ones are looked for
-BESIDE = 20  # starts around it, ever farther: two ways this close draw about as many each
-FAR = np.pi / 2  # rad, or as many sizes: what `near` says and is so far off, is a mistake
-STEPS = 50  # of Newton: quadratic, more only where nothing closes
-LONGEST = 1.0  # size or rad in one step
-NO_STEP = 1e-16  # of sizes and rad
 
 Seeds = Mapping[str, Mapping[str, float]]
 
@@ -38,15 +31,7 @@ def positions(closure: SpatialClosure) -> Array:
     """
     for joint, angle in locked(closure):
         raise refusal.locked(closure.case, joint, angle)
-    nearest: tuple[float, Array] | None = None
-    ways: list[Array] = []
-    for guess in _guesses(closure, ways):
-        q, gap = _newton(closure, guess)
-        if nearest is None or gap < nearest[0]:
-            nearest = gap, q
-        if gap < CLOSED * closure.rounding and faithful(closure, q) and _new(closure, q, ways):
-            ways.append(q)
-    assert nearest is not None
+    ways, nearest = search(closure, partial(_guesses, closure), partial(faithful, closure))
     if not ways and not np.isfinite(nearest[0]):
         raise refusal.flat(closure.case)
     if not ways:
@@ -172,44 +157,3 @@ def _beside(closure: SpatialClosure, far: float, rng: np.random.Generator) -> di
             e = tuple(product(np.array(e), np.array(turn)).tolist())
         found[name] = replace(near, given=given, points=points, attitude=e)
     return found
-
-
-def _newton(closure: SpatialClosure, q: Array) -> tuple[Array, float]:
-    """The root near the guess, and the residual that is left, in sizes or rad."""
-    for _ in range(STEPS):
-        with np.errstate(divide="ignore", invalid="ignore"):  # of a rim that lies flat
-            residual, rows, _ = closure.equations(q)
-        if not np.all(np.isfinite(residual)):
-            return q, np.inf
-        if np.max(np.abs(residual), initial=0.0) < 1e-3 * CLOSED * closure.rounding:
-            break
-        change = least(rows, residual)
-        largest = float(np.max(np.abs(change), initial=0.0))
-        if largest < NO_STEP:
-            break
-        q = _moved(closure, q, -change * closure.units * min(1.0, LONGEST / largest))
-    residual = closure.equations(q)[0]
-    return q, float(np.max(np.abs(residual), initial=0.0))
-
-
-def _moved(closure: SpatialClosure, q: Array, change: Array) -> Array:
-    """q after a small move (n,); quaternions keep the length 1."""
-    q = q + closure.where.rates(q, change)
-    for at in closure.where.attitudes:
-        q[at] /= np.linalg.norm(q[at])
-    return q
-
-
-def _new(closure: SpatialClosure, q: Array, ways: list[Array]) -> bool:
-    return all(_apart(closure, q, other) > SAME for other in ways)
-
-
-def _apart(closure: SpatialClosure, a: Array, b: Array) -> float:
-    """The largest difference of two solutions, in sizes and rad."""
-    one, other = (closure.where.poses(q, np.zeros(closure.where.size)) for q in (a, b))
-    far = 0.0
-    for name in one:
-        p, s = np.array(one[name][:7], float), np.array(other[name][:7], float)
-        turned = 2 * np.arccos(min(1.0, abs(float(p[3:] @ s[3:]))))
-        far = max(far, float(np.max(np.abs(p[:3] - s[:3]))) / closure.size, turned)
-    return far

@@ -7,10 +7,10 @@ import numpy as np
 from ...system import Array
 from .. import messages
 from ..rates import mechanisms
+from ..search import CLOSED, least, null, rank
 from . import refusal
-from .closure import SpatialClosure, least, null, rank
+from .closure import SpatialClosure
 from .initial_conditions import Equation
-from .positions import CLOSED
 
 
 def rates(closure: SpatialClosure, q: Array) -> Array:

@@ -16,12 +16,14 @@ HARDLY = 1e-4  # beside a dead centre: ten times the singular values that count 
 
 def cannot_close(closure: SpatialClosure, q: Array) -> CaseError:
     """No positions satisfy the constraints; q is the best that was found."""
-    residual, rows, owners = closure.equations(q)
+    residual, rows = closure.equations(q)
     worst = int(np.argmax(np.abs(residual)))
     turns = not np.any(rows[worst][~closure.where.turning])
     why = "the mechanism cannot be assembled from what is given"
     gap = abs(float(residual[worst]))
-    return messages.stays_open(closure.case, why, owners[worst], gap, closure.size, turns=turns)
+    return messages.stays_open(
+        closure.case, why, closure.whose(q)[worst], gap, closure.size, turns=turns
+    )
 
 
 def locked(case: Case, joint: Joint, angle: float) -> CaseError:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ....cases.mistake import CaseError, Mistake
 from ...data import file_content, runs
+from ...data.row import OF_NO_RUN
 from ...data.runs import Written
 from .columns import ERRORS, KNOWN, Row
 
@@ -101,8 +102,9 @@ def _opened(name: str, path: Path) -> Folder:
     tables: dict[str, Table] = {}
     mistakes: list[Mistake] = []
     written = _written(path)
+    ours = {*KNOWN, *written} - {*OF_NO_RUN, runs.NAME}  # others are not for us to read
     for file in sorted(path.glob("*.csv")):
-        if file.name in KNOWN or file.name in written:  # others are not ours to read
+        if file.name in ours:
             try:
                 tables[file.name] = read(file)
             except CaseError as error:

@@ -11,7 +11,7 @@ from textmech.reference.motion import follow as following
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.solve import solve
-from textmech.reference.start.mechanism import mechanism
+from textmech.reference.start.assembly import mechanism
 
 G, RAMP = 9.80665, 1.0  # m/s², N/s
 SCENE = """\

@@ -11,7 +11,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint_terms import Heading
 from textmech.reference.mechanism.kinematics.kinematics import Direction
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
-from textmech.reference.start.space.assembly import assemble_in_space
+from textmech.reference.start.assembly import assemble_in_space
 from textmech.reference.systems import written
 
 KNIFE = scenes.SHIPPED["robot_knife"]

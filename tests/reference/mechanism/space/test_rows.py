@@ -14,7 +14,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint_terms import Lowest
 from textmech.reference.mechanism.kinematics.kinematics import Row
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
-from textmech.reference.start.space.assembly import assemble_in_space
+from textmech.reference.start.assembly import assemble_in_space
 
 CASES = ["universal_shaft", "spatial_four_bar", "cat_turn", "tilting_disk.circle", "rolling_sphere"]
 CASES += ["top_on_floor"]

@@ -11,8 +11,8 @@ from given.scenes import typed
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import GROUND, Anchor
 from textmech.cases.scene.rotation import about
+from textmech.reference.start.assembly import assemble_in_space
 from textmech.reference.start.space import positions
-from textmech.reference.start.space.assembly import assemble_in_space
 from textmech.reference.start.space.branches import closes, faithful
 from textmech.reference.start.space.closure import SpatialClosure
 

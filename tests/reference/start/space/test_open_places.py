@@ -7,8 +7,8 @@ from given.otherwise import otherwise
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
+from textmech.reference.start.assembly import assemble_in_space
 from textmech.reference.start.space import refusal
-from textmech.reference.start.space.assembly import assemble_in_space
 
 BODY = "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}}"
 SCENE = f"""\

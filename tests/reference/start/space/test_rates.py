@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.kinematics.spatial_coordinates import SpatialCoordinates
+from textmech.reference.start.assembly import assemble_in_space
 from textmech.reference.start.space import initial_conditions as module
-from textmech.reference.start.space.assembly import assemble_in_space
 from textmech.reference.system import Array
 
 KNOWN = 1e-12  # rad/s, m/s: all rates are near 1

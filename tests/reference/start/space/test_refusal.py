@@ -8,8 +8,8 @@ import pytest
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError, Mistake
+from textmech.reference.start.assembly import assemble_in_space
 from textmech.reference.start.space import positions
-from textmech.reference.start.space.assembly import assemble_in_space
 
 BODY = (
     "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}, "
