@@ -81,8 +81,7 @@ class Case:
         a double is less than 0.1, and a force that jumps there would act a sample late.
         """
         found = np.arange(self.samples, dtype=np.float64) * self.interval
-        own = (corner for law in self.scene.laws() for corner in law.corners)
-        for corner in {*self.corners, *own}:
+        for corner in {*self.corners, *self.scene.corners()}:
             k = min(self.samples - 1, max(0, round(corner / self.interval)))
             if abs(found[k] - corner) <= ROUNDED * self.duration:
                 found[k] = corner

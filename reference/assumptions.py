@@ -8,10 +8,12 @@ from collections.abc import Collection, Iterator, Mapping
 import numpy as np
 
 from ..cases.case import Case
+from ..cases.fields.kind import WORK
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene import Contact
 from ..cases.scene.difference import apart
 from ..cases.scene.frame import PLANE, SPACE
+from ..cases.scene.islands import islands
 from ..cases.scene.observe import motion_of, observe
 from ..cases.scene.passages import dips, smooth
 from ..cases.scene.quantity import table
@@ -94,6 +96,7 @@ def check_premises(case: Case, motion: Trajectory, followed: Followed) -> None:
         _slipping(case, motion),
         _past_ends(case, motion),
         _still(case, motion),
+        _struck(case, motion),
     ):
         if found := list(mistakes):
             raise CaseError(found)
@@ -140,7 +143,7 @@ def _grazes(case: Case, touched: Collection[Touch]) -> Iterator[Mistake]:
 
 def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
     """Yields a mistake where what a face pushes is past the face's end, in any step."""
-    bends = [t for law in case.scene.laws() for t in law.corners]
+    bends = case.scene.corners()
     for pair in case.scene.pairs.values():
         if pair.face is None:
             continue
@@ -193,7 +196,7 @@ def _slipping_between(
 ) -> Iterator[Mistake]:
     """Yields a mistake where it holds at both ends of a step, and not in it."""
     doing, what = "rolling" if contact.ideal == "rolling" else "pivoting", ""
-    bends = [t for law in case.scene.laws() for t in law.corners]
+    bends = case.scene.corners()
     needs = contact.friction
     for rows in smooth(motion, bends):
         times, pushes = motion.times[rows], normal[rows]
@@ -283,3 +286,25 @@ def _floor(case: Case, unit: str) -> float:
 def _moved(samples: Array) -> float:
     """How far a quantity goes; of an attitude, from where it began."""
     return float(np.ptp(samples) if samples.ndim == 1 else np.max(apart(samples, samples[:1])))
+
+
+def _struck(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """Work of what drives a joint, where something strikes: a blow has an impulse, and no power."""
+    known, frame = table(case.scene), case.scene.frame
+    columns = [*frame.alike("m/s"), *frame.alike("rad/s")]
+    for name in case.allow:
+        part, _, field = name.rpartition(".")
+        if field not in WORK or name not in known or part not in case.scene.joints:
+            continue
+        parts = (island for island in islands(case.scene) if part in island.joints)
+        bodies = next(parts, case.scene).bodies
+        rates = np.hstack([motion.states[body][:, columns] for body in bodies])
+        assert motion.phase is not None  # a march has it
+        jumps = np.max(np.abs(np.diff(rates, axis=0)), axis=1) * (np.diff(motion.phase) > 0)
+        if np.any(struck := jumps > STILL * np.max(np.abs(rates))):
+            what = (
+                f"something strikes at {motion.times[int(np.argmax(struck))]:.6g} s, and a blow "
+                f"does work through what drives {part} that no power tells: leave it out, or end "
+                "before it"
+            )
+            yield case.mistake(("allow", name), what)

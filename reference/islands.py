@@ -35,7 +35,7 @@ def parts(case: Case) -> tuple[Case, ...]:
     scenes = apart(case.scene, case.system, case.events)
     if len(scenes) == 1:
         return (case,)
-    corners = tuple(corner for law in case.scene.laws() for corner in law.corners)
+    corners = (*case.scene.corners(),)
     return tuple(_part(case, scene, corners) for scene in scenes)
 
 

@@ -184,6 +184,10 @@ class Scene:
         yield from self.drives.values()
         yield from (law for point in self.points.values() if (law := point.moves) is not None)
 
+    def corners(self) -> list[float]:
+        """When [s] one of the laws in time jumps or bends."""
+        return [time for law in self.laws() for time in law.corners]
+
     def ends(self, force: Force) -> tuple[Anchor, ...]:
         """The points on which a force acts, or those of the joint about which it does."""
         return force.refers() if force.about is None else self.joints[force.about].refers()

@@ -29,24 +29,25 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
     if quantity.part == "momentum":
         return _momentum(scene, trajectory, quantity.field)
     owner, _, point = quantity.part.partition(".")
-    owns = [s[owner] for s in (scene.joints, scene.forces) if owner in s]
-    if quantity.field == "work" and owns:
-        return done(
-            trajectory,
-            corners(scene, owner),
-            lambda rows: owns[0].power(motion_of(scene, rows)),
-        )
+    if quantity.field == "work" and owner in (*scene.joints, *scene.forces):
+        return done(trajectory, corners(scene, owner), lambda rows: power(scene, rows, owner))
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs, scene.forces):
         if owner in section:
             return section[owner].observe(motion_of(scene, trajectory), quantity.field)
     return scene.bodies[owner].observe(trajectory.states[owner], point, quantity.field)
 
 
+def power(scene: Scene, trajectory: Trajectory, owner: str) -> Array:
+    """(N,) the power [W] of a force, or of what drives a joint."""
+    acts = scene.joints[owner] if owner in scene.joints else scene.forces[owner]
+    return acts.power(motion_of(scene, trajectory))
+
+
 def corners(scene: Scene, owner: str) -> set[float]:
     """The times [s] of the laws that move what an element acts on."""
     parts = islands(scene)
     mine = next((p for p in parts if owner in p.forces or owner in p.joints), scene)
-    return {corner for law in mine.laws() for corner in law.corners}
+    return {*mine.corners()}
 
 
 def motion_of(scene: Scene, trajectory: Trajectory) -> Motion:

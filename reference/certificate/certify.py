@@ -6,13 +6,15 @@ one answer may be little farther from the others than two integrators of one sys
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.fields.kind import WORK
 from ...cases.trajectory import Trajectory
 from ..coverage import look
 from ..integrators.implicit import Radau
@@ -45,7 +47,8 @@ COARSER = 1e-13  # tolerance of the second answer where there is only one stiff 
 UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps is 0.01 off at most
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
 APART = 1e-9  # of two samples: a corner nearer to one is none between them
-QUARTERS = 4  # steps a sample at least: longer ones, of order 13, lose up to two digits here
+QUARTERS = (0.0, 0.25, 0.5, 0.75)  # of a sample: longer steps, of order 13, lose up to two digits
+UNEVEN = (0.0, 0.2113, 0.4867, 0.7591)  # where sums are asked for: no period is in step with these
 
 
 def certify(
@@ -64,7 +67,10 @@ def certify(
     times, system, followed = case.times, written.system, written.followed
     inner = case.scene.inner()
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
-    finer = finely(times, system.corners, whole=stiff)
+    known = case.quantities
+    sums = any(name in known and known[name].field in WORK for name in case.allow)
+    parts = UNEVEN if sums else QUARTERS
+    finer = finely(times, system.corners, whole=stiff and not sums, parts=parts)
     name, closer = _second(system, finer, stiff=stiff)
     own = np.searchsorted(finer, times)
     second = replace(closer, y=closer.y[own], phase=closer.phase[own])
@@ -94,7 +100,8 @@ def certify(
         checks.append(Check("modes possible", _impossible(system, followed), 0.0))
     late = worst([late, alone, *(_apart(followed, other) for other in found.values())])
     between = replace(written, followed=closer)
-    return (*checks, *errors(case, motion, others, late, lambda: between.trajectory(finer)))
+    told, march = partial(between.trajectory, finer), partial(written.march, forces=True)
+    return (*checks, *errors(case, motion, others, late, told, march))
 
 
 def as_the_file_says(
@@ -118,10 +125,10 @@ def _own(followed: Followed) -> float:
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 
-def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
+def finely(times: Array, corners: Iterable[float], *, whole: bool, parts: Sequence[float]) -> Array:
     """The samples with others between them, and on the corners and between these.
 
-    whole: an interval without a corner stays whole.
+    parts: where in an interval; whole: one without a corner stays whole.
     """
     least = APART * float(times[1] - times[0])
     edges = times
@@ -129,10 +136,10 @@ def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
         if times[0] < corner < times[-1] and np.min(np.abs(edges - corner)) > least:
             edges = np.union1d(edges, corner)
     sampled = np.isin(edges, times)
-    counts = np.where(sampled[1:] & sampled[:-1] & whole, 1, QUARTERS)
+    wholes = sampled[1:] & sampled[:-1] & whole
     gaps = [
-        np.linspace(a, b, n, endpoint=False)
-        for (a, b), n in zip(pairwise(edges), counts, strict=True)
+        a + (b - a) * np.array([0.0] if stays else parts)
+        for (a, b), stays in zip(pairwise(edges), wholes, strict=True)
     ]
     return np.append(np.concatenate(gaps), times[-1])
 

@@ -11,7 +11,8 @@ from ...cases.case import Case
 from ...cases.fields.kind import WORK
 from ...cases.mistake import Mistake
 from ...cases.scene.difference import apart
-from ...cases.scene.observe import corners, observe
+from ...cases.scene.observe import corners, observe, power
+from ...cases.scene.passages import lasting
 from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
 from .agreement import Check, worst
@@ -22,6 +23,7 @@ EPS = float(np.finfo(np.float64).eps)
 ERROR = "error of "
 FALLS = 2**4  # at twice the distance, where a sum over samples has at least the fourth order
 SAFE = 4  # of 15 by that order: random scenes have errors of up to 1.5 fifteenths of what differs
+SURELY = 4  # times what every other step adds: the steps themselves leave out a third of that
 LEFT = 4 / 3  # a sum over four times as many samples leaves at most a fourth
 
 
@@ -31,23 +33,27 @@ def errors(
     others: Mapping[str, Trajectory],
     late: float,
     finely: Callable[[], Trajectory] | None = None,
+    march: Callable[[], Trajectory] | None = None,
 ) -> Iterator[Check]:
     """The share of the smallest `allow` or `reach` that each quantity's own error takes.
 
     The error is the largest difference to any other answer, and at least the rounding of a double.
     late: how well the times are known at which modes change [s]. finely: another answer at more
-    samples, from which sums are told better; None: what is asked for has none.
+    samples, from which sums are told better; march: the motion at every step of its integrator.
+    None: what is asked for has none.
     """
     known = case.quantities
     sums = [name for name in case.allow if name in known and known[name].field in WORK]
     closer = finely() if sums and finely else None
+    steps = march() if sums and march else None
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
         least, at = _least(case, name), at_event(name, case.events)
         if name in known:
             error, unit = _apart(case, motion, others, name), known[name].unit
             if name in sums:
-                error = max(error, _summed(case, motion, closer, name))
+                missed = 0.0 if steps is None else _missed(case, motion, steps, name)
+                error = max(error, missed, _summed(case, motion, closer, name))
         elif name in times:
             event = case.events[times[name].part]
             off = late + _unread(case, motion, others, times[name].part)
@@ -103,6 +109,33 @@ def _summed(case: Case, motion: Trajectory, closer: Trajectory | None, name: str
         return coarse
     fine = observe(case.scene, closer, name)[np.searchsorted(closer.times, motion.times)]
     return max(coarse, LEFT * worst(np.abs(every[0] - fine)))
+
+
+def _missed(case: Case, motion: Trajectory, march: Trajectory, name: str) -> float:
+    """How far a sum over the samples is from one over the steps of the march, if that is surely
+    more than what the latter leaves out: samples may miss what is short, or in step with them.
+    """
+    times, owner = march.times, name.rpartition(".")[0]
+    told = power(case.scene, march, owner)
+    whole = _trapezoids(times, told)
+    left = sum(
+        abs(float(_trapezoids(times[rows], told[rows])[-1] - whole[rows[-1]] + whole[rows[0]]))
+        for rows in map(_every_other, lasting(march))
+    )
+    at = np.searchsorted(times, motion.times, side="right") - 1
+    off = worst(np.abs(whole[at] - observe(case.scene, motion, name)))
+    return off if off > SURELY * left else 0.0
+
+
+def _trapezoids(times: Array, values: Array) -> Array:
+    """(N,) the area under the line through the values, up to each."""
+    areas = np.diff(times) * (values[1:] + values[:-1]) / 2
+    return np.concatenate([[0.0], np.cumsum(areas)])
+
+
+def _every_other(rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Every second row, and the last."""
+    return np.unique(np.append(rows[::2], rows[-1]))
 
 
 def _kept(times: Array, jumps: Iterable[float], k: int) -> NDArray[np.int64]:

@@ -110,7 +110,7 @@ def unread(scene: Scene, record: Trajectory, event: Event, room: float) -> float
     u = event.falling(observe(scene, record, event.quantity))
     room = max(room, TOLERANCE * worst(np.abs(u)))
     small = still(scene, record, event.quantity)
-    corners = [t for law in scene.laws() for t in law.corners]
+    corners = scene.corners()
     off = 0.0
     for rows in lasting(record):
         times = record.times[rows]

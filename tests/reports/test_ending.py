@@ -83,7 +83,7 @@ def test_it_ends_soon_and_says_so(
     assert "nothing was written" in said
     assert "Traceback" not in said
     assert not any(map(alive, workers))
-    assert list((tmp_path / "out").iterdir()) == []
+    assert not (tmp_path / "out").exists()  # made for it, and empty
 
 
 @pytest.mark.slow

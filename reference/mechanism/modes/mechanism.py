@@ -57,7 +57,7 @@ class SpatialMechanism(Mechanism):
     def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
         self.base = self._only = SpatialMultibody(scene, start)
         self.modes = {MOVING: self.base}
-        self.corners = [corner for law in scene.laws() for corner in law.corners]
+        self.corners = scene.corners()
 
     def start(self) -> After:
         """The assembled start."""

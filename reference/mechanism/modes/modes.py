@@ -33,7 +33,7 @@ class Modes(Mapping[str, Multibody]):
         self.base = Multibody(scene, start)  # what holds in all of them
         where = self.base.where
         self._begins = float(np.max(np.abs(start[1]), initial=0.0))
-        self.corners = [corner for law in scene.laws() for corner in law.corners]
+        self.corners = scene.corners()
         self.elements: tuple[Element, ...] = (
             *elements(scene, where),
             *stopping(scene, where, self._begins),

@@ -33,7 +33,7 @@ def reference_states(case: Case, record: Trajectory, at: AtEvent, times: Array) 
     u = observe(case.scene, record, at.quantity)
     late = case.tube if at.side == "after" else 0.0
     read = np.minimum(times + late, record.times[-1])
-    corners = [corner for law in case.scene.laws() for corner in law.corners]
+    corners = case.scene.corners()
     return np.array([_in_piece(record, u, t, at.side, corners) for t in read.tolist()], float)
 
 

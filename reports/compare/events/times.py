@@ -36,7 +36,7 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     happens = _RULES[event.rule]
     times = [float(before.end) for before, after in pairwise(phases) if happens(before, after)]
     if event.crosses:
-        corners = _corners(scene)
+        corners = scene.corners()
         for piece in pieces:
             times += passages(record.times[piece], u[piece], small, corners)
     return np.array(sorted(times), float)
@@ -109,10 +109,6 @@ def _pieces(
     """The u (N,) that falls to zero at the event, the size that counts as zero, rows by phase."""
     u = event.falling(observe(scene, record, event.quantity))
     return u, still(scene, record, event.quantity), lasting(record)
-
-
-def _corners(scene: Scene) -> list[float]:
-    return [t for law in scene.laws() for t in law.corners]
 
 
 _RULES: Mapping[str, Callable[[_Phase, _Phase], bool]] = {
@@ -280,7 +276,7 @@ def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
     for name, event in case.events.items():
         u, small, pieces = _pieces(case.scene, record, event)
         for piece in pieces if event.crosses else ():
-            for t in touches(record.times[piece], u[piece], small, _corners(case.scene)):
+            for t in touches(record.times[piece], u[piece], small, case.scene.corners()):
                 what = (
                     f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
                     f"within {small:.1e}: whether it gets there is rounding; give another value"
