@@ -64,6 +64,7 @@ PREMISES = {
         "test_samples.py::test_a_premise_is_asked_between_the_steps"
     ),
     "assumptions.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
+    "assumptions.py::_struck": "certificate/test_work_missed.py",
     "determined.py::check_determined": (
         "test_determined.py::test_its_forces_are_refused_with_their_interval"
     ),
