@@ -24,12 +24,11 @@ class Trajectory:
     reference's record, the number of the smooth piece that a row belongs to; an event stands there
     twice, as the last row of one piece and the first of the next. ended: by the number of a piece,
     in the words of the mechanism what ended it, as `touch lands`; empty where nothing with a name
-    did. switches: (K,) s, when the
-    reference changes from one smooth piece to the next; an engine has none to tell. endless: (K,)
-    s, of each pile of events without end the times that the reference has followed; it leaves out
-    the rest. near: in space, by joint (N, K), its turns [rad] as whoever made the motion counted
-    them on the way: attitudes tell them but for whole turns. fastest: how fast [rad/s] the fastest
-    of them goes on the way.
+    did. switches: (K,) s, when the reference changes from one smooth piece to the next; an engine
+    has none to tell. endless: (K,) s, of each pile of events without end the times that the
+    reference has followed; it leaves out the rest. near: in space, by joint (N, K), its turns [rad]
+    as whoever made the motion counted them on the way: attitudes tell them but for whole turns.
+    fastest: how fast [rad/s] the fastest of them goes on the way.
     """
 
     times: Array

@@ -39,13 +39,13 @@ _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own
 
 def pytest_configure(config: pytest.Config) -> None:
     seconds = config.getoption("textmech_time_limit")
-    if seconds is not None or "TEXTMECH_TIME_LIMIT" in os.environ:
+    if seconds is not None or any(name.startswith("TEXTMECH_") for name in os.environ):
         from .system.limit import choose
 
         try:
             choose(seconds)
         except ValueError as error:
-            raise pytest.UsageError(f"--textmech-time-limit: {error}") from None
+            raise pytest.UsageError(str(error)) from None
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -34,11 +34,10 @@ KINDS[3]["bearing"] = Bearing
 
 # The rest is used as it is.
 
-from textmech.cases.load import load
+from given.outside import answered, solved
+
 from textmech.cases.scene.observe import observe
-from textmech.engines.engine import Plan
 from textmech.engines.mujoco import MuJoCo
-from textmech.reference.solve import solve
 
 OMEGA = 3.0  # rad/s
 CASE = f"""\
@@ -58,21 +57,13 @@ step: {{mujoco: 1.0e-3}}
 
 
 def main(folder: Path) -> None:
-    path = folder / "bearing.yaml"
-    path.write_text(CASE, encoding="utf-8")
-    (case,) = load(path)
-    solution = solve(case)
-    assert solution.holds, [check for check in solution.checks if not check.holds]
-    reference, t = solution.trajectory, case.times
+    case, reference = solved(folder, CASE)
+    t = case.times
     turned = observe(case.scene, reference, "post.angle") - np.radians(20) - OMEGA * t
     fallen = observe(case.scene, reference, "post.shift") - 0.5 + 9.80665 * t**2 / 2
     print("turned", np.abs(turned).max())
     print("fallen", np.abs(fallen).max())
-    start = {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}
-    engine = MuJoCo("tuned")
-    plan, *_ = engine.plans(case.scene, start)
-    assert isinstance(plan, Plan), plan
-    found = engine.run(case.scene, start, t, 1e-3, plan, reactions=(), record=False)
+    found = answered(MuJoCo("tuned"), case, reference)
     print("mujoco", np.abs(found.states["bar"] - reference.states["bar"]).max())
 
 

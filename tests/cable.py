@@ -96,10 +96,9 @@ pymunk.ELEMENTS[Cable] = pymunk.Element(
 
 # The rest is used as it is.
 
-from textmech.cases.load import load
+from given.outside import answered, solved
+
 from textmech.cases.scene.observe import observe
-from textmech.engines.engine import Plan
-from textmech.reference.solve import solve
 
 CASE = """\
 title: A bar on a pin, pulled by a cable
@@ -118,27 +117,11 @@ step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
 
 
 def main(folder: Path) -> None:
-    path = folder / "rope.yaml"
-    path.write_text(CASE, encoding="utf-8")
-    (case,) = load(path)
-    solution = solve(case)
-    reference = solution.trajectory
-    assert solution.holds, solution.checks
+    case, reference = solved(folder, CASE)
     assert set(observe(case.scene, reference, "rope.force")) == {9.0}
     print("energy", np.ptp(observe(case.scene, reference, "energy.total")))
-    start = {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}
     for engine, forces in ((MuJoCo("tuned"), ("hinge.fx",)), (Pymunk("tuned"), ())):
-        plan, *_ = engine.plans(case.scene, start)  # type: ignore[arg-type]
-        assert isinstance(plan, Plan)
-        found = engine.run(
-            case.scene,
-            start,  # type: ignore[arg-type]
-            case.times,
-            1e-3,
-            plan,
-            reactions=forces,
-            record=False,
-        )
+        found = answered(engine, case, reference, forces)
         angle = found.states["rod"][:, ANGLE] - reference.states["rod"][:, ANGLE]
         print(engine.name, np.abs(angle).max())
         for name in forces:

@@ -115,9 +115,8 @@ pymunk.ELEMENTS[Strut] = pymunk.Element(
 
 # The rest is used as it is.
 
-from textmech.cases.load import load
-from textmech.engines.engine import Plan
-from textmech.reference.solve import solve
+from given.outside import answered, solved
+
 from textmech.reports.compare.events.times import reference_events
 
 CASE = """\
@@ -137,22 +136,12 @@ step: {mujoco: 1.0e-4, pymunk: 1.0e-4}
 
 
 def main(folder: Path) -> None:
-    path = folder / "post.yaml"
-    path.write_text(CASE, encoding="utf-8")
-    (case,) = load(path)
-    solution = solve(case)
-    assert solution.holds, [check for check in solution.checks if not check.holds]
-    reference = solution.trajectory
+    case, reference = solved(folder, CASE)
     assert reference.record is not None
     (left,) = reference_events(case.scene, reference.record, case.events["leaves"])
     print("leaves", left)
-    start = {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}
     for engine in (MuJoCo("tuned"), Pymunk("tuned")):
-        plan, *_ = engine.plans(case.scene, start)
-        assert isinstance(plan, Plan), plan
-        found = engine.run(
-            case.scene, start, case.times, 1e-4, plan, reactions=("post.force",), record=False
-        )
+        found = answered(engine, case, reference, ("post.force",))
         off = found.states["ball"][:, [X, Y]] - reference.states["ball"][:, [X, Y]]
         print(engine.name, np.abs(off).max())
         force = found.reactions["post.force"] - reference.reactions["post.force"]

@@ -48,7 +48,12 @@ UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps i
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
 APART = 1e-9  # of two samples: a corner nearer to one is none between them
 QUARTERS = (0.0, 0.25, 0.5, 0.75)  # of a sample: longer steps, of order 13, lose up to two digits
-UNEVEN = (0.0, 0.2113, 0.4867, 0.7591)  # where sums are asked for: no period is in step with these
+UNEVEN = (
+    0.0,
+    0.2113,
+    0.4867,
+    0.7591,
+)  # for sums: in step with no simple part of one
 
 
 def certify(

@@ -256,14 +256,14 @@ class _Walk:
         self.spent = i if mode == ended else None
         k, after = len(self.fired[name]), np.concatenate([q, v])
         back = mode == ended and np.array_equal(before, after)
-        if guard.vain and (back or self._trembles(t, ended, before, after)):
+        if guard.vain and (back or self._trembles(t, ended, parted[1], v)):
             self.t, self.now, self.spent = t, before, i
             self.fired[name].pop()
             return
         self._change(Change(guard.event, k, t, ended, mode, before, after, i))
 
     def _trembles(self, t: float, mode: str, before: Array, after: Array) -> bool:
-        """Whether the mode has only just begun, by another event, and this one changes nothing."""
+        """Whether the mode has only just begun, by another event, and this one changes no rate."""
         last = self.changes[-1] if self.changes else None
         if last is None or t - last.time > TOGETHER or last.mode_before == mode:
             return False

@@ -22,6 +22,8 @@ def _chosen(context: click.Context, option: click.Parameter, seconds: float | No
     try:
         choose(seconds)
     except ValueError as error:
+        if str(error).startswith("$"):  # of the environment
+            raise click.UsageError(str(error), context) from None
         raise click.BadParameter(str(error), context, option) from None
 
 

@@ -14,27 +14,29 @@ SLACK = 10.0  # times what a run is worth: the machine may be busy, or old
 
 def limit(worth: float = 0.0) -> float:
     """The time [s] for a task that is worth so much [s]. Raises ValueError as `choose` does."""
-    return _beyond(os.environ.get(VARIABLE, USUAL), f"${VARIABLE}") + SLACK * worth
+    return _above_zero(os.environ.get(VARIABLE, USUAL), f"${VARIABLE}") + SLACK * worth
 
 
 def choose(seconds: float | None) -> None:
     """Another one from now on; None: the usual one, or what the environment says.
 
-    Raises ValueError for what is no time above 0.
+    Raises ValueError where this, or the environment's word of the memory, is no number above 0.
     """
     if seconds is not None:
-        os.environ[VARIABLE] = repr(_beyond(seconds, "it"))
+        os.environ[VARIABLE] = repr(_above_zero(seconds, "it"))
     limit()
+    if MEMORY in os.environ:
+        _above_zero(os.environ[MEMORY], f"${MEMORY}", "GiB")
 
 
-def _beyond(said: str | float, what: str) -> float:
+def _above_zero(said: str | float, what: str, unit: str = "seconds") -> float:
     try:
-        beyond = float(said)
+        found = float(said)
     except ValueError:
-        beyond = 0.0
-    if not beyond > 0.0:  # nan is none either
-        raise ValueError(f"{what} should be a number of seconds above 0, is {said!r}")
-    return beyond
+        found = 0.0
+    if not found > 0.0:  # nan is none either
+        raise ValueError(f"{what} should be a number of {unit} above 0, is {said!r}")
+    return found
 
 
 MEMORY = "TEXTMECH_MEMORY_LIMIT"

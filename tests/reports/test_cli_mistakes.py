@@ -143,11 +143,14 @@ def test_list_finds_words_or_says_that_it_does_not() -> None:
 
 
 @pytest.mark.parametrize("said", ["x", "-1", "0", "nan", ""])
-def test_a_time_limit_that_is_none_is_said(said: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("TEXTMECH_TIME_LIMIT", said)
+@pytest.mark.parametrize(("of", "unit"), [("TIME", "seconds"), ("MEMORY", "GiB")])
+def test_a_limit_that_is_none_is_said(
+    said: str, of: str, unit: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(f"TEXTMECH_{of}_LIMIT", said)
     done = textmech("run", "bar_pendulum", "--engine", "mujoco.shipped")
     assert done.returncode == 2
-    assert f"$TEXTMECH_TIME_LIMIT should be a number of seconds above 0, is {said!r}" in done.stderr
+    assert f"$TEXTMECH_{of}_LIMIT should be a number of {unit} above 0, is {said!r}" in done.stderr
 
 
 def test_no_number_is_no_time_limit() -> None:

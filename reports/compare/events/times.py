@@ -83,18 +83,19 @@ _WORDS = {
 """By a field, the mechanism's words for what happens where it falls to zero."""
 
 
-_BLOWS = {"gap": _WORDS["gap"]}
+_BLOWS = ("lands", "tightens", "strikes")
+"""Those of them at which rates jump."""
 
 
-def _names(scene: Scene, event: Event, words: Mapping[str, Sequence[str]] = _WORDS) -> set[str]:
+def _names(scene: Scene, event: Event) -> set[str]:
     """The mechanism's names for what ends a phase where the event's quantity falls to its value."""
     part, _, field = event.quantity.rpartition(".")
     found = set[str]()
     if event.value == 0.0 and event.rule != "rises to zero":
-        found = {f"{part} {word}" for word in words.get(field, ())}
+        found = {f"{part} {word}" for word in _WORDS.get(field, ())}
     limit = scene.forces.get(part)
     if isinstance(limit, Limit):
-        if words is _WORDS and field in limit.sides and event.value == 0.0:
+        if field in limit.sides and event.value == 0.0:
             found.add(f"{part}.{field} leaves")
         falls = 1.0 if event.rule != "rises to zero" else -1.0
         for side, (sense, at) in limit.sides.items():
@@ -256,7 +257,8 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
 def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
     """The first time [s] at which a blow that is such an event changes no rate by more than what
     rounding does; None without one."""
-    record, blows = reference.record, _names(case.scene, event, _BLOWS)
+    record, named = reference.record, _names(case.scene, event)
+    blows = {name for name in named if name.endswith(_BLOWS)}
     if record is None or record.phase is None or not blows:
         return None
     frame = case.scene.frame
