@@ -34,12 +34,13 @@ _ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
 TOLD = ("case", "engine", "version", "setting", "realised", "quantity", "unit", "step", "error",
         "allowed", "verdict", "because")  # fmt: skip
 """What junit's XML holds of a row, as properties."""
+_LIMITS = ("TEXTMECH_TIME_LIMIT", "TEXTMECH_MEMORY_LIMIT")  # all else imports nothing of ours here
 _SHARED = "textmech_shared"  # what a worker of xdist is told: the session's own folder
 
 
 def pytest_configure(config: pytest.Config) -> None:
     seconds = config.getoption("textmech_time_limit")
-    if seconds is not None or any(name.startswith("TEXTMECH_") for name in os.environ):
+    if seconds is not None or any(name in os.environ for name in _LIMITS):
         from .system.limit import choose
 
         try:
