@@ -16,9 +16,10 @@ _TERM = r"(?:[A-Za-zµμ°]{1,12}(?:(?:\^|\*\*)-?[1-4]|[²³⁴])?)"
 _QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}})")
 
 # The units a case can use. The angle is a dimension of its own here (to pint's own table it is
-# none), so that an angle is no friction coefficient, and 2 Hz, which could mean 2 or 4π rad/s,
-# is no angular frequency. A gram is a gramme by name: pint gives the kgram the name of prefix and
-# unit, and a kilogram of 1000 grams, each 1e-3 of it, would have no end.
+# none), so that an angle is no friction coefficient. So is what Hz counts: 2 Hz could mean 2 or
+# 4π rad/s, and N m/Hz as many N m s/rad; no field takes it. A gram is a gramme by name: pint gives
+# the kgram the name of prefix and unit, and a kilogram of 1000 grams, each 1e-3 of it, would have
+# no end.
 _UNITS = """
 nano- = 1e-9 = n-
 micro- = 1e-6 = µ- = μ-
@@ -37,7 +38,7 @@ hour = 3600 second = h
 degree = 3.141592653589793 / 180 radian = deg = °
 revolution = 360 degree = rev = turn
 rpm = revolution / minute
-hertz = 1 / second = Hz
+hertz = [frequency] = Hz
 newton = kilogram * meter / second**2 = N
 joule = newton * meter = J
 watt = joule / second = W
@@ -150,9 +151,10 @@ def fitting(found: Amount, unit: str | None) -> Amount:
         return found
     if found.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
         return found
-    if unit == "1":
-        raise NumberMistake(f"is {found.text!r}, but a plain number was expected")
-    raise NumberMistake(f"is {found.text!r}, but {unit} was expected")
+    wanted = "a plain number" if unit == "1" else unit
+    counts = "[frequency]" in found.dimension
+    hint = "; Hz may count turns or radians: write rpm or rad/s" if counts else ""
+    raise NumberMistake(f"is {found.text!r}, but {wanted} was expected{hint}")
 
 
 def per_second(unit: str, times: int) -> str:
