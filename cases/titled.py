@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .find import case_name
-from .language.read.document import read
+from .language.document import read
 from .origin import Origin
 
 SAID = ("title", "source", "variants")  # what is read of a file

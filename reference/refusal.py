@@ -20,9 +20,9 @@ from ..cases.scene.frame import SPACE
 from ..cases.scene.islands import apart
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
+from .mechanism.modes.impact_transition import OneInstant
 from .mechanism.modes.mechanism import BadStart, Mechanism
 from .mechanism.modes.mode_selection import Undetermined
-from .mechanism.modes.simultaneous_impacts import OneInstant
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
 from .start.assembly import size_of

@@ -132,7 +132,7 @@ def run(
     """
     import pandas as pd
 
-    from ..cases.language.read.document import Document
+    from ..cases.language.document import Document
     from .batch import suite
     from .batch.cache.store import usable
     from .batch.request import asked
@@ -191,7 +191,7 @@ def advise(
     import pandas as pd
 
     from .batch.advice.advice_rows import Asked, rows
-    from .batch.advice.session import advised
+    from .batch.advice.advise import advised
     from .batch.cache.store import usable
     from .batch.request import asked
 

@@ -79,8 +79,8 @@ LIMITS[Strut] = propped
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.model import force as mujoco
+from textmech.engines.mujoco.model.limit import finish_rope, tension
 from textmech.engines.mujoco.model.number_text import written
-from textmech.engines.mujoco.model.rope import finish_rope, tension
 
 
 def write(sections: mujoco.Sections, strut: Strut) -> None:
@@ -101,7 +101,7 @@ mujoco.ELEMENTS[Strut] = mujoco.Element(
 
 from textmech.engines.pymunk import Pymunk
 from textmech.engines.pymunk.callbacks import force as pymunk
-from textmech.engines.pymunk.model.rope import pulled
+from textmech.engines.pymunk.model.limit import pulled
 
 
 def joint(world: Any, strut: Strut) -> Any:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from given.tree import FILES, PACKAGES, ROOT, imported, module
 
-from textmech.reports.page.write import NAME
+from textmech.reports.page.page import NAME
 
 MAY_IMPORT = {
     "cases": {"cases"},

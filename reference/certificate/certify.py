@@ -24,17 +24,13 @@ from ..integrators.radau import radau_table
 from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
-from ..start.assembly import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
-from .constraint_check import constraint_checks
-from .drive_check import prescribed
 from .errors import errors
 from .event_time_error import untimed
+from .file_checks import as_the_file_says
 from .laws import laws
 from .reaction_check import reaction_checks
-from .reading import size
-from .start_check import started
 
 OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
 ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
@@ -107,17 +103,6 @@ def certify(
     between = replace(written, followed=closer)
     told, march = partial(between.trajectory, finer), partial(written.march, forces=True)
     return (*checks, *errors(case, motion, others, late, told, march))
-
-
-def as_the_file_says(
-    case: Case, answer: Answer, generated: Mechanism, motion: Trajectory, own: float
-) -> Iterator[Check]:
-    """Checks what all answers might share: laws, joints and the start, from the states alone."""
-    lengths = size_of(case)
-    large = size(case.scene.frame, motion, lengths, case.duration)
-    yield from prescribed(case, motion, generated, large, own)
-    yield from constraint_checks(case, motion, large, own)
-    yield from started(case, answer, motion, lengths)
 
 
 def _looser(apart: float) -> float:

@@ -1,6 +1,7 @@
 """Force laws in the book's letters: weight, spring, viscous damper."""
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,3 +52,16 @@ def damper(d: float, r: ArrayLike, r_dot: ArrayLike) -> Array:
     speeds = np.asarray(r_dot, dtype=np.float64).tolist()
     along = sum([x * v for x, v in zip(entries, speeds, strict=True)])
     return np.array(entries) * (d * along / sum([x * x for x in entries]))
+
+
+# Laws of a muscle's contractile element (figure 2.17): how fast it shortens under a force.
+
+
+def hill(F_0: float, a: float, b: float, F: Any) -> Any:
+    """v = b (F₀ − F)/(F + a) [m/s] of (F + a)(v + b) = (F₀ + a) b, F > −a: v < 0 above F₀."""
+    return b * (F_0 - F) / (F + a)
+
+
+def linear(F_0: float, b: float, F: Any) -> Any:
+    """v = (F₀ − F)/b [m/s] of F = F₀ − b v."""
+    return (F_0 - F) / b

@@ -1,7 +1,8 @@
-"""Textbook systems written out by hand: one a file, in the book's letters, grouped by physics.
+"""Textbook systems written out by hand, in the book's letters, grouped by physics.
 
-Each carries its own inertias and its own g and states its own start, so that an agreement with
-the generated motion or with an engine is not an agreement of one line of code with itself.
+One a file, or two where one is built on the other. Each file carries its own inertias and its own g
+and states its own start, so that an agreement with the generated motion or with an engine is not an
+agreement of one line of code with itself.
 """
 
 from collections.abc import Iterator, Mapping
@@ -58,8 +59,8 @@ SYSTEMS: Mapping[str, type[Mode] | type[System]] = Listed(
         "growing_force": "friction.growing_force:GrowingForce",
         "heavy_top": "tops.heavy_top:HeavyTop",
         "knife_edge": "rolling.knife_edge:KnifeEdge",
-        "light_feet": "walkers.light_feet:LightFeet",
-        "muscle_isometric": "muscles.muscle_isometric:MuscleIsometric",
+        "light_feet": "walkers.compass_walker:LightFeet",
+        "muscle_isometric": "muscles.muscle_load:MuscleIsometric",
         "muscle_load": "muscles.muscle_load:MuscleLoad",
         "linear_muscle_load": "muscles.muscle_load:LinearMuscleLoad",
         "paired_rotors": "tops.paired_rotors:PairedRotors",
@@ -81,8 +82,8 @@ SYSTEMS: Mapping[str, type[Mode] | type[System]] = Listed(
         "stribeck_brake": "friction.stribeck_brake:StribeckBrake",
         "stribeck_drive": "friction.stribeck_drive:StribeckDrive",
         "sprung_gimbal": "tops.sprung_gimbal:SprungGimbal",
-        "spring_mass_jump": "walkers.spring_mass_jump:SpringMassJump",
-        "tilting_disk": "rolling.tilting_disk:TiltingDisk",
+        "spring_mass_jump": "walkers.running_gait:SpringMassJump",
+        "tilting_disk": "rolling.tilting_ring:TiltingDisk",
         "tilting_ring": "rolling.tilting_ring:TiltingRing",
         "tipping_block": "contact.tipping_block:TippingBlock",
         "torque_free": "tops.torque_free:TorqueFree",

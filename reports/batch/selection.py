@@ -12,7 +12,7 @@ from ... import engines
 from ...cases.case import Case
 from ...cases.find import find, shipped
 from ...cases.language.check.engines import Engines
-from ...cases.language.read.document import read
+from ...cases.language.document import read
 from ...cases.load import load
 from ...cases.mistake import CaseError, Mistake, nearest
 from ...engines.engine import Engine

@@ -86,7 +86,7 @@ def advise(
       textmech advise --all                             the committed reports/advice.csv
     """
     from ..batch.advice.advice_rows import Asked, rows
-    from ..batch.advice.session import advised
+    from ..batch.advice.advise import advised
     from ..batch.cache import store
     from ..batch.selection import choose_cases, choose_engines
     from ..compare.trial.work import too_long

@@ -59,7 +59,7 @@ def page(
     from ..data.ownership import unasked
     from ..output import write
     from ..page.folder import Missing
-    from ..page.write import NAME, write_committed, write_measured
+    from ..page.page import NAME, write_committed, write_measured
 
     named = bool(cases or names or settings)
     rows = write.by_default()

@@ -120,7 +120,7 @@ def run(
     if out is not None:
         written(write.tables(report, report.cases), out, overwrite=overwrite)
         if page:
-            from ..page.write import write_committed
+            from ..page.page import write_committed
 
             write_committed(report, report.cases, out, out, overwrite=overwrite)
             DONE.append(f"their page is in {out}")

@@ -6,7 +6,7 @@ from typing import Any
 
 from ... import engines
 from ...cases.language.check.work import GO_ON
-from ...cases.language.read.document import Document, read
+from ...cases.language.document import Document, read
 from ...cases.mistake import CaseError, Mistake, Source, nearest
 from ...engines.engine import Engine
 

@@ -7,6 +7,7 @@ from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -17,15 +18,21 @@ from ...cases.case import Case
 from ...cases.theme import THEMES, themes
 from ...reference.certificate.errors import ERROR
 from ..batch.selection import BOOK
+from ..batch.suite import Report
+from ..data import runs
+from ..data.ownership import unasked
 from ..data.row import FAILS, MUTANTS, Certificate
+from ..output import write
+from ..system.replace import replace
+from ..system.temporary_folder import passing
 from . import beside
 from .advice import advice
 from .beside import records
 from .column import Column, columns
-from .folder import BESIDE, Folder
+from .folder import BESIDE, Folder, folder
 from .heat import SHADES, Cell, cells
 from .listed import listed
-from .motions import Motion
+from .motions import Motion, motions
 from .overview import moving, overview
 from .rows import rows
 from .work import work
@@ -210,3 +217,32 @@ def _item(row: Mapping[Any, Any]) -> dict[str, Any]:
     told = ", ".join(names[:NAMED])
     more = len(names) - NAMED
     return {**row, "cases": f"{told} and {more} more" if more > 0 else told}
+
+
+# Where the page is written: beside its reports, all files of a run together.
+
+
+NAME = "index.html"
+
+
+def write_committed(
+    report: Report, cases: Sequence[Case], rows: Path, out: Path, *, overwrite: bool = False
+) -> None:
+    """The page of reports that are there, and of the motions behind them.
+
+    overwrite: also what is no page of ours. Raises Missing where there are none, and OSError: then
+    the folder holds what it held.
+    """
+    unasked(out, [NAME], overwrite=overwrite)
+    replace(out, {NAME: page(folder(rows), cases, motions(report))})
+
+
+def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> None:
+    """The reports of a run and their page. Raises OSError: then the folder holds what it held."""
+    frames = write.tables(report, report.cases)
+    unasked(out, [*frames, runs.NAME, NAME], overwrite=overwrite)
+    with passing("textmech-page-") as made:
+        write.write(frames, made)
+        found = folder(made, beside=out)
+    made_of = page(found, report.cases, motions(report))
+    replace(out, lambda: write.texts(frames, out) | {NAME: made_of})

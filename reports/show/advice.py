@@ -1,16 +1,20 @@
 """Lines of `textmech advise`: plain numbers, two recipes, their price, and what to paste."""
 
+import time
 from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
 from ..batch.advice.advice_rows import BOTH, Advised, rows, settings, words
-from ..batch.advice.price import ratio
 from ..batch.advice.recipe import Recipe, front
 from ..batch.search.candidate import Candidate
 from ..batch.search.errors import trial_of
+from ..batch.tasks import Pair
 from ..compare.judge.figures import plain
 from ..compare.trial.start import first
+from ..compare.trial.trial import Trial
 from ..data.short_numbers import factor, milliseconds
 
 HEADS = {BOTH: "fewest changes, and cheapest"}
@@ -86,3 +90,38 @@ def _front(one: Advised) -> Sequence[str]:
         f"h = {candidate.step:.3g} s  {as_text(candidate.options)}"
         for candidate, worst, quantity in front(one.kitchen)
     ]
+
+
+# Measures what a simulated second of a candidate costs over another's, in CPU time.
+
+
+ROUNDS = 3  # in turn; the least of each counts
+LONG = 0.05  # s: what is shorter is run as often as fills it, for its least time to be found
+
+
+def ratio(pair: Pair, candidate: Candidate, over: Candidate) -> float | None:
+    """CPU time of all steps of the candidate's run over the other's; None where one is refused."""
+    one, other = (trial_of(pair, each) for each in (candidate, over))
+    if one is None or other is None:
+        return None
+    measured = [(_whole(one), _begun(one), _whole(other), _begun(other)) for _ in range(ROUNDS)]
+    mine, built, others, too = (min(column) for column in zip(*measured, strict=True))
+    return (mine - built) / (others - too)
+
+
+def _whole(trial: Trial) -> float:
+    return _seconds(trial, trial.case.duration)
+
+
+def _begun(trial: Trial) -> float:
+    """CPU time [s] of building alone, and one step: to be taken off."""
+    return _seconds(trial, trial.step)
+
+
+def _seconds(trial: Trial, end: float) -> float:
+    times, spent = np.array([0.0, end]), list[float]()
+    while sum(spent) < LONG:
+        begun = time.process_time()
+        trial.engine.run(trial.case.scene, trial.start, times, trial.step, trial.plan, reactions=())
+        spent.append(time.process_time() - begun)
+    return min(spent)

@@ -4,26 +4,57 @@
 """
 
 import csv
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from statistics import mean, median
 from textwrap import fill
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from ruamel.yaml import YAML
 
 from ...cases.find import of_the_book
 from ...cases.load import load
 from ...cases.scene.frame import PLANE
-from ..data.row import Comparison, Rungs
+from ...engines import place
+from ...engines.knobs import as_text
+from ..data.row import SPEED, Comparison, Rungs
+from ..data.short_numbers import factor
 from ..output.write import HERE, read
 from . import picture
 from .cures import cures
 from .nouns import nouns
-from .questions import questions
-from .shares import shares
-from .speed import speed
+from .picture import worst
 from .summary import Line, approximations, summary
 from .table import markdown, narrow, page
+
+# Says for the README how long people wait, from the committed speed.csv.
+
+
+TOLD = {
+    "make reports, in a fresh clone, with its set-up": "`make reports` takes {} in a fresh clone",
+    "make reports, nothing changed": "and {} where nothing has changed",
+    "make test, nothing known": "`make test` takes {} at first",
+    "make test again": "and {} again",
+}
+"""By the row of the table the words for it."""
+
+
+def speed() -> str:
+    """A sentence, of the last time that `make speed` was run."""
+    with (HERE / SPEED).open(encoding="utf-8", newline="") as lines:
+        wall = {row["what"]: float(row["wall"]) for row in csv.DictReader(lines)}
+    told = ", ".join(words.format(_about(wall[what])) for what, words in TOLD.items())
+    return fill(f"On a server with two cores: {told}.", WIDTH) + "\n"
+
+
+def _about(seconds: float) -> str:
+    if seconds < 90:
+        return f"about {seconds:.0f} s"
+    return f"about {seconds / 60:.2g} min"
+
 
 # Which release of an engine moved numbers, in words, from the committed versions.csv.
 
@@ -169,3 +200,76 @@ if __name__ == "__main__":
     for file, text in written.items():
         (ROOT / file).write_text(text, encoding="utf-8")
     PICTURE.write_text(drawn(), encoding="utf-8")
+
+
+# Lists what people ask in public: the case that answers, in a line, and the setting it takes.
+
+
+LISTED = Path(__file__).parents[1] / "questions.yaml"
+WORDS = {
+    "shipped": "as shipped",
+    "law": "none: only our law beside it",
+}
+"""What may stand in place of own options, and what is said of it."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question, its answer, and with what each engine agrees: own options, or one of WORDS."""
+
+    asks: str
+    answer: str
+    settings: Mapping[str, Mapping[str, Any] | str]
+
+
+def asked() -> Mapping[str, Question]:
+    """By the name of the case that answers, in the order in which they are to be read."""
+    found = YAML(typ="safe").load(LISTED.read_text(encoding="utf-8"))
+    return {name: Question(q["asks"], q["answer"], q["with"]) for name, q in found.items()}
+
+
+def questions() -> list[list[str]]:
+    """Lines of cells, the head first."""
+    lines = [["question", "case", "answer", "setting"]]
+    for name, question in asked().items():
+        settings = (_setting(e, s) for e, s in question.settings.items())
+        case = f"[`{name}`]({name}.yaml)"
+        lines.append([question.asks, case, question.answer, "<br>".join(settings)])
+    return lines
+
+
+def _setting(engine: str, setting: Mapping[str, Any] | str) -> str:
+    """A file of settings, whole, or in words."""
+    if isinstance(setting, str):
+        return f"{engine}: {WORDS[setting]}"
+    return f"`{engine}: {as_text(setting)}`"
+
+
+# The first table of the README: how many cases each engine gets right, and how far off it is.
+
+
+FAR = 100.0
+
+
+def shares(rows: Sequence[Comparison]) -> list[list[str]]:
+    """Lines of cells, the head first: a line for each engine's setting."""
+    lines = [["setting", "every quantity within", "one off ×100 or more", "the worst, in median"]]
+    for (engine, setting), ratios in sorted(worst(rows).items(), key=_at_angle):
+        within = f"{_share(ratio <= 1 for ratio in ratios)} of {len(ratios)} cases"
+        far = _share(ratio >= FAR for ratio in ratios)
+        lines.append([f"{engine} {setting}", within, far, _times(median(ratios))])
+    return lines
+
+
+def _share(those: Iterable[bool]) -> str:
+    return f"{mean(those):.0%}".replace("%", " %")
+
+
+def _at_angle(found: tuple[tuple[str, str], list[float]]) -> tuple[str, float]:
+    (engine, setting), _ = found
+    return engine, place(setting)
+
+
+def _times(ratio: float) -> str:
+    """Below 1 only its size matters."""
+    return f"{factor(ratio) if ratio > 1 else f'×{ratio:.1g}'} its tolerance"

@@ -8,9 +8,9 @@ from given.json_schema import wrong
 from given.spatial_case import SOUND as SPATIAL
 
 from textmech.cases.find import shipped
+from textmech.cases.language.document import read
 from textmech.cases.language.grammar.file import File
 from textmech.cases.language.grammar.schema import SCHEMA, text
-from textmech.cases.language.read.document import read
 
 
 def test_current() -> None:

@@ -21,7 +21,7 @@ from textmech.engines.engine import Plan, Refusal, Start
 from textmech.engines.engine import begun as begun_of
 from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.callbacks import settle as settling
-from textmech.engines.mujoco.callbacks.floor import Floor
+from textmech.engines.mujoco.callbacks.settle import Floor
 from textmech.engines.pymunk.adapter import refuse
 from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import before_each, building

@@ -22,11 +22,11 @@ from given.planning import begun
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
 from textmech.reports.batch.advice.advice_rows import Advised, Asked
-from textmech.reports.batch.advice.session import advised
+from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.show.advice import advice_lines
-from textmech.reports.show.questions import listed
+from textmech.reports.show.readme import asked as listed
 
 pytestmark = pytest.mark.slow
 

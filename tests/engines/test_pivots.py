@@ -15,7 +15,7 @@ from textmech.cases.trajectory import ANGLE, Array, Trajectory
 from textmech.engines.engine import Choice, Plan
 from textmech.engines.mujoco.model import contact
 from textmech.engines.mujoco.settings.settings import at_step
-from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
+from textmech.reference.systems.walkers.rimless_wheel import SpokeSteps
 from textmech.reports.compare.events.times import falls
 
 L, M = 0.3, 2.0

@@ -13,7 +13,7 @@ from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Tunable
-from textmech.engines.mujoco.model import stops as of_mujoco
+from textmech.engines.mujoco.model import limit as of_mujoco
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
 

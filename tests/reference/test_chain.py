@@ -9,7 +9,7 @@ import pytest
 from textmech.cases.load import load
 from textmech.reference.integrators import implicit
 from textmech.reference.mechanism.constraints import constraint_solver as holding
-from textmech.reference.mechanism.constraints.banded_solver import Band
+from textmech.reference.mechanism.constraints.constraint_solver import Band
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.solve import Solution, solve
 

@@ -5,7 +5,7 @@ import pytest
 from textmech.reports.batch import suite
 from textmech.reports.batch.advice.advice_rows import Asked
 from textmech.reports.batch.advice.advice_rows import rows as rows_of
-from textmech.reports.batch.advice.session import advised
+from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_cases, choose_engines
 from textmech.reports.batch.suite import Report

@@ -59,7 +59,7 @@ def test_what_only_shows_ends_well(tmp_path: Path) -> None:
     """As reports/README.md says of page."""
     found = Report(comparisons=[replace(row(), verdict=FAILS)])
     page = importlib.import_module("textmech.reports.command.page")
-    written = importlib.import_module("textmech.reports.page.write")
+    written = importlib.import_module("textmech.reports.page.page")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(page, "looked_at", lambda *_, **__: found)
         patch.setattr(written, "write_measured", lambda *_, **__: None)

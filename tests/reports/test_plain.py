@@ -14,8 +14,7 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE, VX, VY, Array, Trajectory, X, Y
 from textmech.reference.solve import solve
-from textmech.reports.compare.judge.figure import Plain
-from textmech.reports.compare.judge.figures import numbers, plain
+from textmech.reports.compare.judge.figures import Plain, numbers, plain
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import Trial
 

@@ -12,7 +12,7 @@ import pytest
 
 from textmech.reports.system import pool
 from textmech.reports.system.lock import locked
-from textmech.reports.system.processes import Processes
+from textmech.reports.system.pool import Processes
 
 
 def work(task: int) -> int:

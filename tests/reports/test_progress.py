@@ -14,7 +14,7 @@ from textmech.reports.batch.task_results import Results
 from textmech.reports.show import console as say
 from textmech.reports.show import progress
 from textmech.reports.system import pool
-from textmech.reports.system.processes import Processes
+from textmech.reports.system.pool import Processes
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,9 @@ from textmech.cases.find import questions as files
 from textmech.cases.load import load
 from textmech.reports import run
 from textmech.reports.data.row import AGREES
-from textmech.reports.show import questions as asking
-from textmech.reports.show.questions import WORDS, listed, questions
+from textmech.reports.show import readme as asking
+from textmech.reports.show.readme import WORDS, questions
+from textmech.reports.show.readme import asked as listed
 
 Setting = Mapping[str, Any] | str
 EACH = [(n, e, s) for n, q in listed().items() for e, s in q.settings.items()]

@@ -11,9 +11,8 @@ from given.lines import refused, row
 
 from textmech.reports.data.row import DEVIATES, Comparison
 from textmech.reports.output.write import HERE, read
-from textmech.reports.show import readme, speed
-from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled, releases
-from textmech.reports.show.shares import shares
+from textmech.reports.show import readme
+from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled, releases, shares
 
 PART = Part("README.md", "one", lambda: "new\n")
 TEXT = "before\n<!-- one: of a table -->\nold\n<!-- /one -->\nafter\n"
@@ -95,12 +94,12 @@ def test_what_tuned_still_misses_is_another_model() -> None:
 def test_what_is_waited_for_is_the_tables() -> None:
     with (HERE / "speed.csv").open(encoding="utf-8", newline="") as lines:
         wall = {line["what"]: float(line["wall"]) for line in csv.DictReader(lines)}
-    said = speed.speed().replace("\n", " ")
+    said = readme.speed().replace("\n", " ")
     minutes, seconds = r"about ([\d.]+) min", r"about (\d+) s"
     told = [60 * float(n) for n in re.findall(minutes, said)] + [
         float(n) for n in re.findall(seconds, said)
     ]
-    assert sorted(told) == pytest.approx(sorted(wall[what] for what in speed.TOLD), rel=0.05)
+    assert sorted(told) == pytest.approx(sorted(wall[what] for what in readme.TOLD), rel=0.05)
     assert said.startswith("On a server with two cores: `make reports` takes about")
 
 

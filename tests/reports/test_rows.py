@@ -5,7 +5,7 @@ from dataclasses import replace
 from given.lines import refused, row
 
 from textmech.reports.data.row import FAILS, Certificate
-from textmech.reports.show.rows import certificate_lines, rows
+from textmech.reports.show.terminal import certificate_lines, rows
 
 LONG = "the model: 0.346 remains for h → 0; " + "one number for friction where there are two; " * 3
 

@@ -8,7 +8,7 @@ from given.lines import ladder, refused, row
 from given.otherwise import otherwise
 
 from textmech.reports.data.row import CHANGED, DIVERGED, FAILS, Comparison
-from textmech.reports.show import best_setting as agreement
+from textmech.reports.show import summary as agreement
 from textmech.reports.show import summary as short
 from textmech.reports.show.summary import Line, approximations, summary
 

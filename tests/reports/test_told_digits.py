@@ -15,7 +15,7 @@ from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge import metric, rounding
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import FAILS
-from textmech.reports.output import poses, write
+from textmech.reports.output import motion_files, write
 
 ERRORS = 10.0 ** np.random.default_rng(5).uniform(-16, 2, 50)
 
@@ -61,7 +61,7 @@ def test_a_certificate_that_fails_fails_the_run() -> None:
     assert Report(certificates=[CERTIFICATE, replace(CERTIFICATE, verdict=FAILS)]).fails
 
 
-def times(case: Case, own: Case, module: Any = poses) -> list[float]:
+def times(case: Case, own: Case, module: Any = motion_files) -> list[float]:
     """When a run's poses are told to be."""
     ball = np.zeros((own.samples, 3))
     pair = SimpleNamespace(
@@ -84,5 +84,7 @@ def times(case: Case, own: Case, module: Any = poses) -> list[float]:
 def test_poses_are_told_at_the_engines_own_samples(moving: Case) -> None:
     own = replace(moving, duration=0.9, samples=moving.samples)
     assert times(moving, own) == pytest.approx(own.times.tolist())
-    other = otherwise(poses, "one.pair.sampled.times, one.outcome", "case.times, one.outcome")
+    other = otherwise(
+        motion_files, "one.pair.sampled.times, one.outcome", "case.times, one.outcome"
+    )
     assert times(moving, own, other) == pytest.approx(moving.times.tolist())

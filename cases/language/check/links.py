@@ -1,14 +1,19 @@
 """References between the parts of a scene: every name means one thing that is there."""
 
 from collections.abc import Iterator
+from typing import Any
 
-from ...mistake import Path
+import numpy as np
+
+from ...mistake import Path, listed, nearest
 from ...scene import FLOOR, GROUND, Edge, Force, Joint, Scene
+from ...scene.body import Body
+from ...scene.point import Anchor
+from ...scene.solid import without_inertia
+from ...trajectory import Array
 from ..grammar.scene import Scene as Spec
 from ..parse import NAMED, Finding, Parsed
-from .about import about, rubbing
 from .anchor import no_point
-from .axis import turns_freely
 from .contact import contacts
 from .drive import drives
 from .start import starts
@@ -97,3 +102,134 @@ def _refers(
     if len(points) > 1 and len({at.body for at in points}) == 1:
         body = points[0].body
         yield path, f"joins {'the ground' if body == GROUND else repr(body)} with itself"
+
+
+# Checks of what acts about or along a joint, or rubs in it: its parts may turn, or may shift.
+
+
+def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
+    """Yields what is wrong with the joint's name, the joint, or the turn that is meant."""
+    name = force.about
+    assert name is not None
+    if name not in scene.joints:
+        if not parsed.hides(name):
+            known = parsed.names("joints", scene.joints)
+            yield path, f"unknown joint {name!r}{nearest(name, known)}"
+        return
+    joint = scene.joints[name]
+    if scene.frame.dimension == 2 and joint.swings:
+        yield path, f"{name!r} is a {joint.kind}, and no axis about which anything could act"
+        return
+    if force.freedom == "shift":
+        if not joint.shifts:
+            yield path, f"{name!r} is a {joint.kind}, and lets nothing shift"
+        return
+    if not joint.turns:
+        yield path, f"{name!r} is a {joint.kind}, and lets nothing turn"
+        return
+    if scene.frame.dimension == 3:
+        if what := no_turn(joint, force):
+            yield path, what
+        return
+    if force.turn:
+        yield path, f"in the plane {name!r} has one turn without a name: write {name!r}"
+    yield from turning(scene, path, joint)
+
+
+def rubbing(scene: Scene) -> Iterator[Finding]:
+    """Dry friction of a pin brakes a turn."""
+    for name, joint in scene.joints.items():
+        if joint.dry_friction is not None and not joint.shifts:
+            yield from turning(scene, ("scene", "joints", name, "dry_friction"), joint)
+
+
+def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
+    """Parts of the joint that cannot turn."""
+    for at in joint.refers():
+        if at.body in scene.bodies and not scene.bodies[at.body].turns:
+            yield path, f"{joint.name!r} joins {at.body!r}, which is a particle and cannot turn"
+
+
+# Forces about a joint in space: which of its turns is meant.
+
+
+def no_turn(joint: Any, force: Force) -> str | None:
+    """Why there is no such turn, or none about which anything can act."""
+    found: Joint = joint
+    name, freedom = found.name, force.turn
+    turns = [f.name for f in found.turns if f.name]
+    written = [f"{name}.{turn}" for turn in turns]
+    if not found.holds_attitude:
+        why = "their middle axis is fixed in neither part; put a body between, on a joint more"
+        return f"{name!r} leaves three turns, and about these nothing can act: {why}"
+    if not turns:
+        return f"the turns of {name!r}, a {found.kind}, have no names: write it as `freedoms`"
+    if not freedom and found.kind == "freedoms":
+        return f"{name!r} leaves freedoms with names: write {' or '.join(map(repr, written))}"
+    if freedom in found.rates:
+        turn = f"{name}.{found.rates[freedom].name}"
+        return f"{freedom!r} is a rate; the turn is {turn!r}"
+    if freedom in [f.name for f in found.shifts]:
+        return f"{freedom!r} slides, and nothing turns there{listed(written)}"
+    if freedom and freedom not in turns:
+        return f"{name!r} has no turn {freedom!r}{nearest(f'{name}.{freedom}', written)}"
+    return None
+
+
+# Bodies and the axes about which they turn: a particle has none, and a slender bar lacks one.
+
+
+_NONE = "and it has no inertia about that"
+NEAR = 1e-9  # sine of an angle, and of a length its part: numbers are typed with up to ten digits
+
+
+def turns_freely(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Particles that a joint would turn, and bodies that turn freely without inertia."""
+    for name, joint in scene.joints.items():
+        turning = [f for f in joint.turns if f.kind == "turn"]
+        for at in joint.refers():
+            body = scene.bodies.get(at.body)
+            if turning and body is not None and not body.turns:
+                path = ("scene", "joints", name, joint.word)
+                yield path, f"{at.body!r} is a particle and cannot turn; join it by a `ball`"
+    for name, body in scene.bodies.items():
+        if not body.turns or parsed.shaken:
+            continue
+        axis = without_inertia(body.inertia)
+        if axis is not None and not _held(parsed, scene, name, axis):
+            yield ("scene", "bodies", name), _freely(body, axis)
+
+
+def _freely(body: Body, axis: Array) -> str:
+    if body.shape == "bar":
+        own = "nothing keeps it from turning about its own axis"
+        return f"{body.name!r} is a slender bar: {own}, {_NONE}; give it as a `rigid` with a tensor"
+    about = ", ".join(f"{x:.3g}" for x in axis * np.sign(axis[np.argmax(abs(axis))]) + 0.0)
+    return f"nothing keeps {body.name!r} from turning about [{about}], {_NONE}"
+
+
+def _held(parsed: Parsed, scene: Scene, body: str, axis: Array) -> bool:
+    """Whether some joint keeps the body from turning about an axis through its centre."""
+    if any(path[:2] == ("scene", "joints") for path in parsed.broken):
+        return True  # perhaps that one
+    return any(
+        at.body == body and not _lets(scene, joint, at, axis)
+        for joint in scene.joints.values()
+        for at in joint.refers()
+    )
+
+
+def _lets(scene: Scene, joint: Joint, at: Anchor, axis: Array) -> bool:
+    """Whether the joint lets the body turn about this axis wherever the joint stands."""
+    point = scene.bodies[at.body].points.get(at.point)
+    if point is None:
+        return False
+    d = np.asarray(point)
+    on_it = np.linalg.norm(np.cross(axis, d)) <= NEAR * np.linalg.norm(d)
+    if not on_it and len(joint.shifts) < 3:
+        return False
+    if not joint.holds_attitude:
+        return True
+    # The first axis stands in the first part and the last in the second.
+    own = joint.turns[:1] if at == joint.a else joint.turns[-1:]
+    return any(np.linalg.norm(np.cross(axis, f.axis)) <= NEAR for f in own)

@@ -35,9 +35,18 @@ from ....cases.scene.forces.muscle import Contracting
 from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from ....cases.trajectory import Array
 from .hinge import Hinge, hinge
+from .limit import (
+    finish_rope,
+    finish_stops,
+    lean_back,
+    pushing,
+    rope_length,
+    stop_numbers,
+    tension,
+    write_rope,
+    write_stops,
+)
 from .number_text import soft, written
-from .rope import finish_rope, rope_length, tension, write_rope
-from .stops import finish_stops, lean_back, pushing, stop_numbers, write_stops
 
 # Viscous friction along a slide as MuJoCo's damping of a joint: a v + b v|v| + c v³.
 

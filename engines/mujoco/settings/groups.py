@@ -17,10 +17,10 @@ from ...foot_contact import strides
 from ..model.contact import HARDEST, SOFTEST, recipe
 from ..model.force import limited
 from ..model.hinge import hinge
+from ..model.limit import recipe as ropes
+from ..model.limit import recipe_of_stops as stops
 from ..model.loops import recipe as rods
 from ..model.planes import met
-from ..model.rope import recipe as ropes
-from ..model.stops import recipe as stops
 from ..model.tree import dry_joints, spanning_tree
 
 SOFT = {"solref": (2,), "solimp": (3, 5)}

@@ -35,10 +35,9 @@ from ....cases.scene.forces.force import (
 from ...engine import Realised
 from ...signal import acting, in_time
 from ..model.chipmunk_state import State, pushing, reading, turning
+from ..model.limit import pressed, pulled, rope_joint, rope_numbers, stop_numbers, stops_joint
 from ..model.number_text import written
-from ..model.rope import pulled, rope_joint, rope_numbers
 from ..model.script_signals import as_text
-from ..model.stops import pressed, stop_numbers, stops_joint
 from ..model.world import Held, World
 from . import unilateral_spring as one_side
 from .line_forces import Exerted, Load, drifted, midpoint_force, pull

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ....cases.scene import GROUND, Contact, Scene, Vector
 from ...engine import Choice, Start
 from ..model.contact import closed, is_tip
-from ..model.rope import eases
+from ..model.limit import eases
 from ..model.slot import oblique
 from .solver_iterations import Holding, holding
 

@@ -7,7 +7,7 @@ from typing import Any
 from ....cases.scene import Scene
 from ...engine import Choice, Start
 from ..model.contact import is_tip
-from ..model.rope import eases
+from ..model.limit import eases
 from ..model.slot import oblique
 from .options import BY_THE_SCENE, PROTOCOL, full
 from .recipe import recipe

@@ -28,9 +28,8 @@ from ....cases.scene.forces.force import (
     TorsionDamper,
     of,
 )
-from ...laws.force import torsion, torsion_damper
+from ...laws.force import hill, linear, torsion, torsion_damper
 from ...laws.friction import power_law
-from ...laws.muscle import hill, linear
 from ..kinematics.frame import Vec, back, carried
 from ..kinematics.kinematics import Kinematics, Part, Point
 from .turning import Turn, turn_of

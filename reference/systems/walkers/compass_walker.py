@@ -235,3 +235,25 @@ class CompassWalker(System):
         if tangent > self.mu * normal:
             return f"to pivot it needs friction {tangent / normal:.4g}, not {self.mu:.4g}"
         return None
+
+
+# The simplest walker before its limit: massless legs, a hip M, and feet of a small mass m.
+#
+# For m/M → 0 it becomes `simplest_walker`, which no engine can run.
+
+
+@dataclass(frozen=True)
+class LightFeet(CompassWalker):
+    """A walker with all of a leg's mass m [kg] at its foot, where its moment of inertia is J_f."""
+
+    J_f: float
+
+    @property
+    def c(self) -> float:
+        """l [m]: how far below the hip a leg has its centre."""
+        return self.l
+
+    @property
+    def J(self) -> float:
+        """J_f [kg m²]."""
+        return self.J_f

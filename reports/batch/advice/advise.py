@@ -1,23 +1,29 @@
 """Which setting does a case need? The search for the minimal recipe of each engine."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
+from typing import Any
 
+from ....cases.case import Case
 from ....cases.mistake import CaseError
-from ....engines.engine import Plan, Refusal, Tunable, lacking
+from ....cases.scene import GROUND
+from ....engines.engine import Engine, Plan, Refusal, Tunable, lacking
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
-from ...system.pool import Died
+from ...system.pool import Died, local, workers
+from ..cache.key import Keys
+from ..cache.store import Store, passing
 from ..search.candidate import Candidate
 from ..search.parallel_search import Asking, Known, Search, together
 from ..search.solving import solved
 from ..search.tunable import lost
-from ..task_results import Results
+from ..task_results import Progress, Results
 from ..tasks import Pair
 from .advice_rows import Advised, Asked
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
-from .loop_cuts import elsewhere
 from .parameter_draws import tried_in_draws
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
@@ -162,3 +168,91 @@ def _search(kitchen: Kitchen, *, front: bool) -> Asking[Recipes | None]:
         both = [found.fewest.choice, found.cheapest.choice] if found else []
         yield rungs_of(kitchen, tuned, *both)
     return found
+
+
+# Does a recipe hold wherever a loop is cut? The same scene with its joints in other orders.
+#
+# Which joint of a loop an engine holds by a soft constraint, and which by its coordinates, hangs
+# on their order in some; a user's model has another one.
+
+
+MOST = 4  # other orders that are tried of a scene
+
+
+def elsewhere(
+    asked: Mapping[str, tuple[Pair, list[Candidate], Mapping[str, float]]], results: Results
+) -> dict[str, dict[Candidate, float]]:
+    """By key and candidate the worst error over its tolerance wherever the loops are cut.
+
+    asked: by key the pair, its candidates, and the scale of its bar. Of a scene without loops
+    nothing.
+    """
+    searches: dict[str, Search[list[float]]] = {}
+    for key, (pair, candidates, scale) in asked.items():
+        for number, other in enumerate(_others(pair)):
+            known = Known()
+            searches[f"{key} {number}"] = Search(other, known, _worst(known, candidates, scale))
+    found = together("other cuts", searches, results) if searches else {}
+    worst: dict[str, dict[Candidate, float]] = {}
+    for key, (_, candidates, _) in asked.items():
+        cut = [found[f"{key} {n}"] for n in range(MOST) if f"{key} {n}" in found]
+        worst[key] = {c: max(each[i] for each in cut) for i, c in enumerate(candidates) if cut}
+    return worst
+
+
+def _worst(
+    known: Known, candidates: list[Candidate], scale: Mapping[str, float]
+) -> Asking[list[float]]:
+    yield candidates
+    return [Bar(known, 1.0, scale).worst(candidate)[0] for candidate in candidates]
+
+
+def _others(pair: Pair) -> list[Pair]:
+    """The pair with another joint the last, once for each of some, where joints close a loop."""
+    scene: Any = pair.case.scene
+    names = list(scene.joints)
+    if not _loops(scene):
+        return []
+    turned = [names[k:] + names[:k] for k in range(1, len(names))][:MOST]
+    scenes = [replace(scene, joints={name: scene.joints[name] for name in n}) for n in turned]
+    return [replace(pair, case=replace(pair.case, scene=other)) for other in scenes]
+
+
+def _loops(scene: Any) -> bool:
+    """Whether some joint joins what is joined already."""
+    whole = {name: {name} for name in (GROUND, *scene.bodies)}
+    for joint in scene.joints.values():
+        a, b = whole[joint.a.body], whole[joint.b.body]
+        if a is b:
+            return True
+        a |= b
+        whole.update(dict.fromkeys(b, a))
+    return False
+
+
+# A search from the words of a command: its processes, its store, and all cases at once.
+
+
+@contextmanager
+def advised(
+    cases: Sequence[Case],
+    engines: Sequence[Engine],
+    asked: Asked,
+    *,
+    progress: Progress,
+    jobs: int | None = None,
+    store: Store | None = None,
+    executor: Executor | None = None,
+) -> Iterator[list[Advised]]:
+    """Yields the advice for each case in each engine as shipped; references stay until the end.
+
+    jobs, store and executor as of `suite.measure`. Raises CaseError for what only solving finds.
+    """
+    keys = Keys.now(store)
+    with (
+        nullcontext(store) if store else passing() as used,
+        nullcontext(executor) if executor else local(jobs or workers()) as working,
+    ):
+        results = Results(working, progress, used, keys)
+        pairs = [Pair(case, e, used, keys.solution(case)) for case in cases for e in engines]
+        yield advise(pairs, asked, results)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ....cases.case import Case
-from ....cases.language.read.document import read
+from ....cases.language.document import read
 from ....cases.load import load
 from ....cases.mistake import CaseError
 from ....cases.trajectory import Trajectory

@@ -11,7 +11,7 @@ import pytest
 
 from textmech.cases.trajectory import Array
 from textmech.engines.mujoco.model.bounce import springy
-from textmech.engines.mujoco.model.stops import BEAT as OF_STOPS
+from textmech.engines.mujoco.model.limit import BEAT as OF_STOPS
 
 H = 1e-4  # s
 V = 2.0  # m/s

@@ -23,7 +23,7 @@ from scipy.integrate import solve_ivp
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.trajectory import VX, Array
 from textmech.engines.mujoco.callbacks import settle
-from textmech.engines.mujoco.callbacks.floor import Floor
+from textmech.engines.mujoco.callbacks.settle import Floor
 from textmech.engines.mujoco.model.bounce import damping_ratio
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from textmech.cases.fields.friction import Bounds, DryFriction, Smooth
 from textmech.engines.law import smooth_under
-from textmech.engines.pymunk.callbacks.breakaway import bound, mean_friction, smooth_mean
+from textmech.engines.pymunk.callbacks.friction import bound, mean_friction, smooth_mean
 
 LAW = DryFriction(Bounds(6.0, 2.0), Bounds(3.0, 1.0))  # forward, backward [N]
 H, M = 0.5, 2.0  # s, kg

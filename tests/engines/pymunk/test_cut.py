@@ -13,7 +13,7 @@ from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Diverged, Realised
-from textmech.engines.pymunk.callbacks import cold, cut
+from textmech.engines.pymunk.callbacks import cut
 from textmech.engines.pymunk.callbacks.foot import Foot
 from textmech.reference.solve import solve
 from textmech.reports.compare.events.times import engine_events, reference_events
@@ -73,8 +73,8 @@ EARLY = lambda self, longest: np.nextafter(longest, 0.0) * 1e-3  # noqa: E731
 MISTAKES: Mapping[str, tuple[object, str, Callable[..., object]]] = {
     "cut at the end of the step": (Foot, "after", LATE),
     "never down where it is cut": (Foot, "after", EARLY),
-    "no impact": (cold.Lengths, "impact", lambda self: None),
-    "impulses of another length": (cold, "forget", lambda space: None),
+    "no impact": (cut.Lengths, "impact", lambda self: None),
+    "impulses of another length": (cut, "forget", lambda space: None),
     "carried along by its curve": (Foot, "_carry", lambda self, slip: None),
     "seen where its body was": (cut.Landings, "_moved", lambda self: None),
     "lifted by its curve": (Foot, "_depth", lambda self, length: 0.0),

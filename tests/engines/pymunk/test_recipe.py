@@ -14,7 +14,7 @@ from textmech.cases.scene import Bounds, DryFriction, Joint
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import ANGLE, X, Y
 from textmech.engines.engine import Choice
-from textmech.engines.pymunk.callbacks import breakaway
+from textmech.engines.pymunk.callbacks import friction
 from textmech.engines.pymunk.settings.recipe import Recipe
 from textmech.engines.pymunk.stepping import scene as builder
 from textmech.reports.compare.events.times import engine_events
@@ -101,10 +101,10 @@ def test_a_chain_with_the_default_iterations_gains_energy(monkeypatch: pytest.Mo
 @pytest.mark.mutant("friction of a whole step where a block breaks loose")
 @pytest.mark.slow
 def test_a_whole_step_at_the_onset_is_of_first_order(monkeypatch: pytest.MonkeyPatch) -> None:
-    def plain(friction: DryFriction, middle: float, end: float) -> float:
-        return breakaway.dry_friction(friction, 0.0, middle)
+    def plain(law: DryFriction, middle: float, end: float) -> float:
+        return friction.dry_friction(law, 0.0, middle)
 
-    monkeypatch.setattr(breakaway, "_from_rest", plain)
+    monkeypatch.setattr(friction, "_from_rest", plain)
     times = np.linspace(0.0, 10.0, 101)
     run = moved(ENGINE, guided(DRAWN), RESTS, times, STEP, realised="law")
     assert 1e-7 < np.abs(run.states["block"][:, X] - drawn(times)).max() < 2 * STEP
@@ -116,11 +116,11 @@ def test_a_whole_step_at_the_onset_is_of_first_order(monkeypatch: pytest.MonkeyP
 def test_mean_over_a_step_is_the_law_stepped_finely(
     bounds: tuple[Bounds, Bounds], speed: float, force: float
 ) -> None:
-    friction, h, n = DryFriction(*bounds), 1e-3, 5000
+    law, h, n = DryFriction(*bounds), 1e-3, 5000
     v, rate = speed, 20.0  # N/s
     for i in range(n):
         applied = force + rate * (i + 0.5) * h / n
-        after = v + (applied + breakaway.dry_friction(friction, v, applied)) * h / n
+        after = v + (applied + friction.dry_friction(law, v, applied)) * h / n
         v = 0.0 if after * v < 0 else after
-    mean = breakaway.mean_friction(friction, speed, 1.0, lambda ahead: force + rate * ahead, h)
+    mean = friction.mean_friction(law, speed, 1.0, lambda ahead: force + rate * ahead, h)
     assert speed + (force + rate * h / 2 + mean) * h == pytest.approx(v, abs=2e-5)

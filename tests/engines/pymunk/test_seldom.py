@@ -15,7 +15,7 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
 from textmech.engines.pymunk.callbacks import force_points as points
 from textmech.engines.pymunk.callbacks.friction import turn
-from textmech.engines.pymunk.model import stops
+from textmech.engines.pymunk.model import limit
 from textmech.engines.pymunk.model.pair import closed_pairs
 from textmech.engines.pymunk.stepping.run import placed
 from textmech.reference.solve import solve
@@ -120,7 +120,7 @@ def angle(low: float, high: float, at: float) -> tuple[float, float]:
     a, b = pymunk.Body(1, 1), pymunk.Body(1, 1)
     b.angle = at
     joint: Any = Pressed(a, b, low, high)
-    return stops.pressed(joint, "low"), stops.pressed(joint, "high")
+    return limit.pressed(joint, "low"), limit.pressed(joint, "high")
 
 
 class Pressed(pymunk.RotaryLimitJoint):
@@ -135,8 +135,8 @@ def test_one_end_of_a_stop_pushes_at_a_time() -> None:
     """That which is nearer; of a single stop the other is a million radians away."""
     assert angle(-0.5, 1.5, -0.51) == (2.0, 0.0)
     assert angle(-0.5, 1.5, 1.51) == (0.0, 2.0)
-    assert angle(-0.5, stops.NEVER, -0.5) == (2.0, 0.0)
-    assert angle(-stops.NEVER, 7.0, 7.0) == (0.0, 2.0)
+    assert angle(-0.5, limit.NEVER, -0.5) == (2.0, 0.0)
+    assert angle(-limit.NEVER, 7.0, 7.0) == (0.0, 2.0)
 
 
 def touching(parting: float) -> list[str]:

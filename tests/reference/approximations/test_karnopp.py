@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from given.examples import example
 
-from textmech.reference.approximations.karnopp import Karnopp, boxcars
+from textmech.reference.approximations.approximation import Karnopp, boxcars
 from textmech.reference.laws.friction import Dry
 from textmech.reference.motion.follow import follow
 

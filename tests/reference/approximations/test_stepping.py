@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from given.examples import example
 
-from textmech.reference.approximations.karnopp import arrest, stepped
+from textmech.reference.approximations.approximation import arrest, stepped
 from textmech.reference.laws.friction import Dry, stiction
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array

@@ -18,7 +18,7 @@ from given.linkages import LINKAGE
 
 from textmech.cases.fields.signal import Signal
 from textmech.cases.scene.point import GroundPoint
-from textmech.reference.certificate.drive_check import integral
+from textmech.reference.certificate.file_checks import integral
 from textmech.reference.mechanism.constraints import joint_constraints as permanent
 from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Given, Turn
 from textmech.reference.mechanism.forces import action

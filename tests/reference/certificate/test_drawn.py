@@ -10,7 +10,7 @@ from given.formal import drawn as formal
 from given.mutants import mutant
 from given.states import states
 
-from textmech.reference.certificate.random_states import drawn, moved
+from textmech.reference.certificate.laws import drawn, moved
 from textmech.reference.system import Array, Mode
 
 TIMES = np.linspace(0.0, 2.0, 5)

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from given.problems import by_scipy
 
-from textmech.reference.integrators.implicit import Radau, radau
+from textmech.reference.integrators.implicit import ByEigenvalues, Radau, Whole, radau
 from textmech.reference.integrators.march import Vector
 from textmech.reference.integrators.radau import radau_table
-from textmech.reference.integrators.stages import ByEigenvalues, Whole
 
 
 def prothero_robinson(t: float, y: Vector) -> Vector:

@@ -5,7 +5,7 @@ import pytest
 from given import scenes
 
 from textmech.reference import solve as door
-from textmech.reference.integrators.threads import _libraries, one_thread
+from textmech.reference.solve import _libraries, one_thread
 
 
 def counts() -> list[int]:

@@ -10,7 +10,7 @@ from given.engine_scenes import chain
 
 from textmech.cases.scene import Anchor, Scene, planar_joint
 from textmech.reference.formalisms import lagrange
-from textmech.reference.mechanism.constraints.banded_solver import band
+from textmech.reference.mechanism.constraints.constraint_solver import band
 from textmech.reference.mechanism.constraints.equation_table import Rows, Table
 from textmech.reference.mechanism.constraints.joint_constraints import constraints
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates

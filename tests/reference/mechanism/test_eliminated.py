@@ -7,7 +7,7 @@ import pytest
 from given import random_scenes, scenes
 from given.multibody_laws import EXACT
 
-from textmech.reference.certificate.random_states import drawn
+from textmech.reference.certificate.laws import drawn
 from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.system import Array

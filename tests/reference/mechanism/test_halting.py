@@ -9,7 +9,7 @@ from given import scenes
 from given.refused import refused
 from scipy.integrate import solve_ivp
 
-from textmech.reference.mechanism.modes import halting
+from textmech.reference.mechanism.modes import mechanism
 from textmech.reference.solve import solve
 
 G = 9.80665
@@ -67,6 +67,6 @@ def test_alone_it_stops_and_is_refused_from_there_on(tmp_path: Path, alpha: floa
 def test_a_stop_taken_for_a_passing_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(halting, "OTHERS", 0.0)
+    monkeypatch.setattr(mechanism, "OTHERS", 0.0)
     stops = text(2.0, 0.0, 0.5, gravity="  gravity: none\n").replace("b.y", "b.x")
     assert "stops b.center" not in refused(scenes.typed(tmp_path, stops, tail=TAIL)).what

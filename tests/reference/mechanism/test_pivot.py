@@ -21,7 +21,7 @@ from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Array
 from textmech.reference.systems import written
-from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
+from textmech.reference.systems.walkers.rimless_wheel import SpokeSteps
 
 L, M, J, GAMMA = 0.3, 2.0, 0.09, 0.1
 WHEEL = """\

@@ -20,9 +20,9 @@ from textmech.cases.scene import Scene
 from textmech.cases.scene.joint import Joint
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.observe import observe
-from textmech.reference.motion import bodies, turns
+from textmech.reference.motion import bodies
+from textmech.reference.motion.bodies import Counted
 from textmech.reference.motion.follow import Followed
-from textmech.reference.motion.turns import Counted
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import System
 from textmech.reports.compare.events.times import reference_events
@@ -203,9 +203,9 @@ def test_a_lost_turn_is_seen(name: str, tmp_path: Path, monkeypatch: pytest.Monk
 
         def guessed(scene: Scene, system: System, followed: Followed) -> Counted:
             rows = zip(case.times.tolist(), followed.phase.tolist(), followed.y, strict=True)
-            return turns.counted(scene, system, replace(followed, march=tuple(rows)))
+            return bodies.counted(scene, system, replace(followed, march=tuple(rows)))
 
-        monkeypatch.setattr(turns, "ROUNDS", 1)
+        monkeypatch.setattr(bodies, "ROUNDS", 1)
         monkeypatch.setattr(bodies, "counted", guessed)
     failed = [check.name for check in solve(case).checks if not check.holds]
     assert "turns by their rates" in failed

@@ -13,7 +13,7 @@ from given.spatial import SPATIAL, closed, example, only, states, variant
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, Only, System
 from textmech.reference.systems.elliptic import Amplitude, first
-from textmech.reference.systems.tops.nutation import Nutation
+from textmech.reference.systems.tops.heavy_top import Nutation
 
 m, l, A, C = (SPATIAL["heavy_top"][key] for key in ("m", "l", "A", "C"))
 G = 9.80665

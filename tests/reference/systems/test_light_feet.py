@@ -12,8 +12,7 @@ from given.walkers import ENTRIES, begun, returned
 
 from textmech.reference.motion.cycle import Cycle, cycle
 from textmech.reference.system import Array
-from textmech.reference.systems.walkers.compass_walker import CompassWalker
-from textmech.reference.systems.walkers.light_feet import LightFeet
+from textmech.reference.systems.walkers.compass_walker import CompassWalker, LightFeet
 
 G = 9.80665
 SHIPPED: LightFeet = example("light_feet")  # type: ignore[assignment]

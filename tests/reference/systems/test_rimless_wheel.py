@@ -13,8 +13,7 @@ from given.mutants import mutant
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, Guard, System
-from textmech.reference.systems.walkers.rimless_wheel import RimlessWheel
-from textmech.reference.systems.walkers.spoke_steps import SpokeSteps
+from textmech.reference.systems.walkers.rimless_wheel import RimlessWheel, SpokeSteps
 
 WHEEL = PARAMETERS["rimless_wheel"]
 

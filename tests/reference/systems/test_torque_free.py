@@ -12,7 +12,7 @@ from given.spatial import SPATIAL, closed, example, only, states
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, Mode
-from textmech.reference.systems.tops.polhode import Polhode
+from textmech.reference.systems.tops.torque_free import Polhode
 
 A, B, C = (SPATIAL["torque_free"][key] for key in "ABC")
 STARTS = {

@@ -15,8 +15,7 @@ from textmech.reports.batch.suite import Report
 from textmech.reports.output import write
 from textmech.reports.page.folder import folder
 from textmech.reports.page.motions import motions
-from textmech.reports.page.page import page
-from textmech.reports.page.write import NAME
+from textmech.reports.page.page import NAME, page
 
 ODD = "hostile? & <b>"  # a file may have any name
 HOSTILE = "<script>window.struck = 1</script></script><b onload=x>& A bar that swings"

@@ -12,7 +12,7 @@ from given.scenes import SHIPPED
 from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.trajectory import Array
-from textmech.reports.page import motions, outline, sketch, strobe
+from textmech.reports.page import motions, picture, sketch
 from textmech.reports.page.pack import unpacked
 
 TEXT = """\
@@ -40,7 +40,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
     return found
 
 
-def extents(case: Case, module: Any = outline) -> list[float]:
+def extents(case: Case, module: Any = sketch) -> list[float]:
     """Width and height of the crate as it is drawn."""
     (line,) = module.outline(case.scene.bodies["crate"], 1.0)["lines"]
     return [float(x) for x in np.ptp(line, axis=0)]
@@ -49,7 +49,7 @@ def extents(case: Case, module: Any = outline) -> list[float]:
 @pytest.mark.mutant("blocks are drawn twice as large")
 def test_a_block_is_drawn_as_large_as_it_is(case: Case) -> None:
     assert extents(case) == [0.4, 0.2]
-    twice = otherwise(outline, "_box(np.asarray(body.size) / 2)", "_box(np.asarray(body.size))")
+    twice = otherwise(sketch, "_box(np.asarray(body.size) / 2)", "_box(np.asarray(body.size))")
     assert extents(case, twice) == [0.8, 0.4]
 
 
@@ -66,7 +66,7 @@ def test_a_spring_ends_where_it_is_fixed(case: Case) -> None:
     assert ends(case, centred)[0] == ["box", [0.0, 0.0]]
 
 
-def top(module: Any = outline) -> tuple[float, list[float]]:
+def top(module: Any = sketch) -> tuple[float, list[float]]:
     """How high the rim of the heavy top stands over its centre at most, and its radius."""
     body: Any = SHIPPED["heavy_top.cusp"].scene.bodies["top"]
     rim = np.array(module.outline(body, 1.0)["lines"][0])
@@ -80,12 +80,12 @@ def test_a_top_is_a_disk_as_hard_to_turn_on_its_point() -> None:
     height, radii = top()
     assert height < 1e-6
     assert radii == pytest.approx([np.sqrt(2 * 0.0006 / 0.5)] * len(radii), rel=1e-3)
-    lines = outline.outline(body, 1.0)["lines"]
+    lines = sketch.outline(body, 1.0)["lines"]
     assert [line for line in lines if line[0] == [0.0, 0.0, -0.05]]  # its cone ends in its tip
-    assert top(otherwise(outline, "k = 2 if alike[0] else 0", "k = 0"))[0] > 0.01
+    assert top(otherwise(sketch, "k = 2 if alike[0] else 0", "k = 0"))[0] > 0.01
 
 
-def box(module: Any = outline) -> list[float]:
+def box(module: Any = sketch) -> list[float]:
     """The sides of the box that the torque-free body is drawn as, about as long as it reaches."""
     body: Any = SHIPPED["torque_free.thrown"].scene.bodies["body"]
     return np.ptp(np.concatenate(module.outline(body, 1.0)["lines"]), axis=0).tolist()
@@ -97,7 +97,7 @@ def test_a_body_of_space_is_a_box_as_hard_to_turn() -> None:
     a, b, c = box()
     inertia = [1.3 * (b**2 + c**2) / 12, 1.3 * (a**2 + c**2) / 12, 1.3 * (a**2 + b**2) / 12]
     assert inertia == pytest.approx([0.09, 0.06, 0.04], rel=1e-3)
-    wrong = otherwise(outline, "np.sum(moments) - 2 * moments", "0.5 * moments")
+    wrong = otherwise(sketch, "np.sum(moments) - 2 * moments", "0.5 * moments")
     assert box(wrong) != pytest.approx([a, b, c], rel=0.1)
 
 
@@ -156,7 +156,7 @@ def test_an_attitude_in_space_is_seen_and_its_opposite_quaternion_is_the_same() 
     assert not motions._covered({"top": other}, {"top": one}, case, 1.0)
 
 
-def placed(module: Any = strobe) -> Array:
+def placed(module: Any = picture) -> Array:
     """Where a quarter of a turn takes a point to the right of the centre: up."""
     return module._placed(np.array([1.0, 2.0, np.pi / 2]), np.array([[0.5, 0.0]]))[0]
 
@@ -164,5 +164,5 @@ def placed(module: Any = strobe) -> Array:
 @pytest.mark.mutant("bodies are drawn turned the other way")
 def test_a_turned_body_is_drawn_turned() -> None:
     assert placed() == pytest.approx([1.0, 2.5])
-    back = otherwise(strobe, "[[cos, sin], [-sin, cos]]", "[[cos, -sin], [sin, cos]]")
+    back = otherwise(picture, "[[cos, sin], [-sin, cos]]", "[[cos, -sin], [sin, cos]]")
     assert placed(back) == pytest.approx([1.0, 1.5])

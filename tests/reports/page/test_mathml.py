@@ -7,8 +7,7 @@ import pytest
 
 from textmech.cases.case import Case
 from textmech.reports.batch.selection import choose_cases
-from textmech.reports.page.listed import equations
-from textmech.reports.page.mathml import mathml
+from textmech.reports.page.listed import equations, mathml
 
 
 def told(line: str) -> str:

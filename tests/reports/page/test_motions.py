@@ -16,8 +16,8 @@ from textmech.reports.batch.selection import choose_cases
 from textmech.reports.page import motions
 from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
 from textmech.reports.page.pack import unpacked, unpacked_by_size
+from textmech.reports.page.picture import _frames, _placed
 from textmech.reports.page.sketch import sketch
-from textmech.reports.page.strobe import _frames, _placed
 
 LEVEL = 1 / 4096  # of a range: half of it is rounded
 

@@ -9,7 +9,7 @@ from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.reports.page import motions, outline, sketch
+from textmech.reports.page import motions, sketch
 from textmech.reports.page.pack import unpacked
 
 TEXT = """\
@@ -41,8 +41,8 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
 @pytest.mark.mutant("a bar is drawn to its centre")
 def test_a_bar_is_drawn_from_end_to_end(case: Case) -> None:
     rod = case.scene.bodies["rod"]
-    assert outline.outline(rod, 1.0)["lines"] == [[[-0.3, 0.0], [0.3, 0.0]]]
-    half = otherwise(outline, 'rounded(body.points["end"])', 'rounded(body.points["center"])')
+    assert sketch.outline(rod, 1.0)["lines"] == [[[-0.3, 0.0], [0.3, 0.0]]]
+    half = otherwise(sketch, 'rounded(body.points["end"])', 'rounded(body.points["center"])')
     assert half.outline(rod, 1.0)["lines"] == [[[-0.3, 0.0], [0.0, 0.0]]]
 
 
@@ -50,7 +50,7 @@ def test_a_bar_is_drawn_from_end_to_end(case: Case) -> None:
 def test_a_disk_in_space_is_drawn_across_its_axle() -> None:
     disk: Any = SHIPPED["tilting_disk.circle"].scene.bodies["disk"]
 
-    def along(module: Any = outline) -> float:
+    def along(module: Any = sketch) -> float:
         """How far its rim reaches along the axle, of its radius."""
         rim = np.array(module.outline(disk, 1.0)["lines"][0])
         assert np.linalg.norm(rim, axis=1) == pytest.approx(disk.radius, rel=1e-3)
@@ -58,7 +58,7 @@ def test_a_disk_in_space_is_drawn_across_its_axle() -> None:
 
     assert along() < 1e-3
     was = "np.array([first, np.cross(axle, first)])"
-    assert along(otherwise(outline, was, "np.array([first, axle])")) > 0.9
+    assert along(otherwise(sketch, was, "np.array([first, axle])")) > 0.9
 
 
 @pytest.mark.mutant("a rail on the second body")

@@ -8,7 +8,7 @@ from given.otherwise import otherwise
 from matplotlib.figure import Figure
 
 from textmech.cases.trajectory import Array
-from textmech.reports.page import strobe
+from textmech.reports.page import picture
 from textmech.reports.page.column import Column
 from textmech.reports.page.pack import packed
 
@@ -38,7 +38,7 @@ MOTION: dict[str, Any] = {
 }
 
 
-def drawn(module: Any = strobe) -> list[tuple[str, list[list[float]]]]:
+def drawn(module: Any = picture) -> list[tuple[str, list[list[float]]]]:
     """Each line by its label, as places."""
     axes = Figure().subplots()
     module.strobe(axes, MOTION, [TUNED])
@@ -51,7 +51,7 @@ def drawn(module: Any = strobe) -> list[tuple[str, list[list[float]]]]:
 @pytest.mark.mutant("engines are drawn where they begin")
 def test_an_engine_is_drawn_where_it_ends() -> None:
     assert ("mujoco tuned", [[3.0, 0.0]]) in drawn()
-    began = otherwise(strobe, "{part: rows[-1] for part", "{part: rows[0] for part")
+    began = otherwise(picture, "{part: rows[-1] for part", "{part: rows[0] for part")
     assert ("mujoco tuned", [[0.0, 0.0]]) in drawn(began)
 
 
@@ -66,14 +66,14 @@ def test_the_reference_is_drawn_at_its_instants_and_its_links_at_the_last() -> N
 def test_the_scale_is_the_mechanisms() -> None:
     fell = {"mujoco.tuned.native": {"poses": {"dot": columns(-50 * UP)}}}
 
-    def lowest(module: Any = strobe) -> float:
+    def lowest(module: Any = picture) -> float:
         axes = Figure().subplots()
         module.strobe(axes, {**MOTION, "ghosts": fell}, [TUNED])
         axes.apply_aspect()
         return axes.get_ylim()[0]
 
     assert -3.0 < lowest() < 0.0
-    assert lowest(otherwise(strobe, "axes.dataLim.set(limits)", "pass")) < -90.0
+    assert lowest(otherwise(picture, "axes.dataLim.set(limits)", "pass")) < -90.0
 
 
 @pytest.mark.mutant("ink by 0.8 k / last, of which rounding may make more than all")
@@ -83,7 +83,7 @@ def test_the_last_instant_is_in_full_ink_however_many_there_are(count: int) -> N
     motion = {**MOTION, "times": rows[0], "poses": {"dot": rows}, "ghosts": {}}
     motion["sketch"] = {**MOTION["sketch"], "links": []}
 
-    def last(module: Any = strobe) -> float | None:
+    def last(module: Any = picture) -> float | None:
         axes = Figure().subplots()
         module.strobe(axes, motion, [])
         return axes.get_lines()[-1].get_alpha()
@@ -91,17 +91,17 @@ def test_the_last_instant_is_in_full_ink_however_many_there_are(count: int) -> N
     assert last() == 1.0
     if 0.2 + 0.8 * (count - 1) / (count - 1) > 1.0:
         with pytest.raises(ValueError, match="outside 0-1 range"):
-            last(otherwise(strobe, "0.8 * (k / last)", "0.8 * k / last"))
+            last(otherwise(picture, "0.8 * (k / last)", "0.8 * k / last"))
 
 
 @pytest.mark.mutant("space seen from below")
 def test_space_is_seen_from_the_side_and_above() -> None:
     """What is higher is drawn higher, and so is what is further away."""
-    near = np.array([[np.cos(strobe.AZIMUTH), np.sin(strobe.AZIMUTH), 0.0]])
+    near = np.array([[np.cos(picture.AZIMUTH), np.sin(picture.AZIMUTH), 0.0]])
     up, right = np.array([[0.0, 0.0, 1.0]]), np.array([[-near[0, 1], near[0, 0], 0.0]])
-    assert strobe._seen(up)[0] == pytest.approx([0.0, np.cos(strobe.ELEVATION)])
-    assert strobe._seen(right)[0] == pytest.approx([1.0, 0.0])
-    assert strobe._seen(near)[0] == pytest.approx([0.0, -np.sin(strobe.ELEVATION)])
+    assert picture._seen(up)[0] == pytest.approx([0.0, np.cos(picture.ELEVATION)])
+    assert picture._seen(right)[0] == pytest.approx([1.0, 0.0])
+    assert picture._seen(near)[0] == pytest.approx([0.0, -np.sin(picture.ELEVATION)])
     was = "z * np.cos(ELEVATION) - towards"
-    below = otherwise(strobe, was, was.replace("-", "+"))
+    below = otherwise(picture, was, was.replace("-", "+"))
     assert below._seen(near)[0, 1] > 0.0

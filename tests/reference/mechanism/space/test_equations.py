@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from textmech.reference.mechanism.constraints import saddle_equations as equations
-from textmech.reference.mechanism.constraints.saddle_equations import Equations
+from textmech.reference.mechanism.modes import spatial_mode as equations
+from textmech.reference.mechanism.modes.spatial_mode import Equations
 
 N, R = 12, 7
 EVEN, SLENDER = np.diag([0.02, 0.03, 0.04]), np.diag([0.02, 0.02, 1e-13])

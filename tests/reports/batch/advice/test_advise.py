@@ -7,11 +7,11 @@ from given import scenes
 
 from textmech.reports import advise
 from textmech.reports.batch.advice.advice_rows import FEWEST, Asked, rows
-from textmech.reports.batch.advice.price import ratio
-from textmech.reports.batch.advice.session import advised
+from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.data.row import Advice
+from textmech.reports.show.advice import ratio
 
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp")
 

@@ -6,8 +6,8 @@ import pytest
 from given import scenes
 from given.otherwise import otherwise
 
+from textmech.reports.batch.advice import advise as cuts
 from textmech.reports.batch.advice import criterion as bars
-from textmech.reports.batch.advice import loop_cuts as cuts
 from textmech.reports.batch.advice.criterion import Bar
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import passing

@@ -182,7 +182,7 @@ def test_a_search_counts_what_it_imports_and_no_other_search() -> None:
         "reports.system.limit"
     }
     assert needless([SEARCH], ["reports/batch/search"]) == set()
-    assert "reports.batch.advice.loop_cuts" in needless(
+    assert "reports.batch.advice.advise" in needless(
         [SEARCH], ["reports/batch/search", "reports/batch/advice"]
     )
 
@@ -223,7 +223,7 @@ def needless(names: Iterable[str], places: Iterable[str]) -> set[str]:
         ("reports/compare/judge/metric.py", True),
         ("engines/mujoco/adapter/run.py", False),
         ("reference/laws/friction.py", False),  # of a reference the rows' own errors tell
-        ("reports/batch/advice/loop_cuts.py", False),
+        ("reports.batch.advice.advise.py", False),
         ("reports/output/write.py", False),
     ],
 )

@@ -10,7 +10,6 @@ from given.otherwise import otherwise
 
 from textmech import engines
 from textmech.reports.batch.advice import advice_rows as advised
-from textmech.reports.batch.advice import price
 from textmech.reports.batch.advice.advice_rows import Advised, Asked
 from textmech.reports.batch.advice.candidates import Choice, Menu
 from textmech.reports.batch.advice.criterion import Bar
@@ -130,7 +129,7 @@ def test_the_printed_cost_is_the_recipes_over_shippeds(
     assert "×0.12 of shipped" in printed(found, wrong)
 
 
-def seconds(pair: Pair, module: Any = price) -> float:
+def seconds(pair: Pair, module: Any = advice) -> float:
     """A run of ten times the steps over one, on a clock by which a step takes a second."""
 
     def spent(trial: Any, end: float) -> float:
@@ -144,7 +143,7 @@ def seconds(pair: Pair, module: Any = price) -> float:
 def test_a_measured_price_is_of_the_candidate_over_the_other(
     pair: Pair, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(price, "_seconds", price._seconds)  # put back afterwards
+    monkeypatch.setattr(advice, "_seconds", advice._seconds)  # put back afterwards
     assert seconds(pair) == pytest.approx(10.0, rel=0.1)  # but for the first step, which is begun
-    wrong = otherwise(price, "(mine - built) / (others - too)", "(others - too) / (mine - built)")
+    wrong = otherwise(advice, "(mine - built) / (others - too)", "(others - too) / (mine - built)")
     assert seconds(pair, wrong) == pytest.approx(0.1, rel=0.1)

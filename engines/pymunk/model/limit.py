@@ -1,17 +1,20 @@
-"""Ropes: slide joints without a least length, which pull where it is beyond their largest.
-
-A step finds one too long by how far its ends have parted in it. With error_bias = 0 it takes all of
-that back at once, and throws back what it has caught by up to its whole speed: so a rope has a bias
-of its own, and the stops of joints have the same.
-"""
+"""What holds on one side: ropes, and stops of a joint's turn."""
 
 import math
 
-from pymunk.constraints import SlideJoint
+from pymunk.constraints import RotaryLimitJoint, SlideJoint
 
 from ....cases.scene.forces.rope import Rope
+from ....cases.scene.forces.stops import Stops
 from ...engine import Choice
 from .world import World
+
+# Ropes: slide joints without a least length, which pull where it is beyond their largest.
+#
+# A step finds one too long by how far its ends have parted in it. With error_bias = 0 it takes
+# all of that back at once, and throws back what it has caught by up to its whole speed: so a rope
+# has a bias of its own, and the stops of joints have the same.
+
 
 FASTEST = 150.0  # 1/s: at 0.1 ms a ball that swings on a rope is ten times nearer than with 20/s
 SLOWING = 1.5  # s^-1/2: it meets FASTEST at 0.1 ms; at 1 ms a ball that is caught is caught once
@@ -48,3 +51,28 @@ def eases(step: float) -> Choice:
         "is taken back in one step, and throws back what was caught; the default takes a tenth of "
         "a second",
     )
+
+
+# Stops of a joint's turn: rotary limit joints, which count the second body against the first.
+
+
+NEVER = 1e6  # rad: where no turn ends
+
+
+def stops_joint(world: World, stops: Stops) -> RotaryLimitJoint:
+    """Between the bodies of the joint."""
+    a, b = (world.body(at) for at in world.scene.ends(stops))
+    low = -NEVER if stops.low is None else stops.low
+    return RotaryLimitJoint(a, b, low, NEVER if stops.high is None else stops.high)
+
+
+def pressed(joint: RotaryLimitJoint, side: str) -> float:
+    """The impulse [N m s] of the last step at one of its ends."""
+    below = joint.b.angle - joint.a.angle < (joint.min + joint.max) / 2
+    return joint.impulse if below == (side == "low") else 0.0
+
+
+def stop_numbers(joint: RotaryLimitJoint, stops: Stops) -> dict[str, float]:
+    """Where they are."""
+    held = {"low": joint.min, "high": joint.max}
+    return {side: held[side] for side in stops.sides}

@@ -1,4 +1,4 @@
-"""Stops of a joint's turn: the range of MuJoCo's joint, with sensors of what holds it there."""
+"""What holds on one side: ropes, and stops of a joint's turn."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import Limit
+from ....cases.scene.forces.rope import Rope
 from ....cases.scene.forces.stops import Stops
 from ....cases.trajectory import Array
 from ...engine import Choice
@@ -15,6 +16,54 @@ from .bounce import dead, springy
 from .contact import HARDEST
 from .hinge import Hinge
 from .number_text import Softness, of_one, written
+
+# Ropes: tendons that may not be longer than their range, each with a sensor of what holds it.
+
+
+def write_rope(sections: Mapping[str, ET.Element], rope: Rope) -> None:
+    """A tendon between the two ends, whose range ends at the rope's length."""
+    given = {"name": rope.name, "limited": "true", "range": written(0.0, rope.length)}
+    spatial = ET.SubElement(sections["tendon"], "spatial", given)
+    for end in (rope.a, rope.b):
+        ET.SubElement(spatial, "site", site=str(end))
+
+
+def finish_rope(root: ET.Element, sensors: ET.Element, rope: Rope, soft: Softness) -> None:
+    """A setting's numbers for the limit, and its sensor."""
+    (spatial,) = (each for each in root.iter("spatial") if each.get("name") == rope.name)
+    spatial.attrib.update(soft)
+    ET.SubElement(sensors, "tendonlimitfrc", name=rope.name, tendon=rope.name)
+
+
+def rope_length(model: mujoco.MjModel, rope: Rope) -> dict[str, float]:
+    """Where its range ends."""
+    return {"length": model.tendon_range[model.tendon(rope.name).id, 1]}
+
+
+def tension(model: mujoco.MjModel, rope: Rope, side: str, sensed: Array) -> Array:
+    """(N,) what pulls its ends together, from the sensors' rows (N, ·)."""
+    return sensed[:, model.sensor(rope.name).adr[0]]
+
+
+def recipe() -> list[Choice]:
+    """The limits' numbers: they must neither throw back what they catch nor give way for long."""
+    because = (
+        "k = 0.05/h², b = 1.8/h: what it catches is not thrown back, and on a circle it is "
+        "v² h²/(0.05 L) too long; RK4 bears 2.8/h"
+    )
+    return [
+        Choice("rope.solreflimit", ["-0.05/h2", "-1.8/h"], because),
+        Choice("rope.solimplimit", [HARDEST, HARDEST, 0.001], "the hardest MuJoCo takes"),
+        Choice(
+            "flag.diagexact",
+            "enable",
+            "or k and b are those of a mean inertia at the file's own pose, not at the rope's",
+        ),
+    ]
+
+
+# Stops of a joint's turn: the range of MuJoCo's joint, with sensors of what holds it there.
+
 
 NEVER = 1e6  # rad: where no turn ends
 AT = 1e-9  # rad: what is nearer to a stop is at it
@@ -69,7 +118,7 @@ def pushing(model: mujoco.MjModel, stops: Stops, side: str, sensed: Array) -> Ar
     return np.where(below == (side == "low"), size, 0.0)
 
 
-def recipe(all_of_them: Sequence[Limit]) -> list[Choice]:
+def recipe_of_stops(all_of_them: Sequence[Limit]) -> list[Choice]:
     """The limits' numbers: of the stops that throw back most, and what others have instead."""
     most = max(stops.back for stops in all_of_them)
     others = [stops for stops in all_of_them if stops.back != most]

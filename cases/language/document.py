@@ -21,7 +21,7 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
-from ...mistake import NO_VALUE, CaseError, Mistake, Path, Source, plain
+from ..mistake import NO_VALUE, CaseError, Mistake, Path, Source, plain
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
 AT_HAND = 128  # files whose text is not parsed again: all that are shipped

@@ -1,1 +1,0 @@
-"""Text → plain data with the place of every key, and its variants."""
