@@ -13,7 +13,7 @@ from ..cases.fields.friction import Bounds
 from ..cases.scene import Scene
 from ..cases.scene.forces.drag import Drag, Viscous
 from ..cases.scene.forces.element import Force
-from ..cases.scene.forces.magnetic import Magnetic
+from ..cases.scene.forces.force import Magnetic
 from ..cases.scene.forces.muscle import Contracting, LinearMuscle, Muscle
 
 

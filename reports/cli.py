@@ -7,14 +7,13 @@ import click
 
 from ..cases.mistake import CaseError
 from .command.advise import advise
-from .command.answer import BAD_INPUT
 from .command.causes import causes
 from .command.check import check
 from .command.check_engine import check_engine
 from .command.diff import diff
 from .command.done import done
 from .command.list import list_
-from .command.options import allow_long
+from .command.options import BAD_INPUT, allow_long
 from .command.page import page
 from .command.plot import plot
 from .command.run import run

@@ -13,7 +13,7 @@ from ..scene.frame import PLANE, SPACE
 from ..scene.joint import Joint
 from ..scene.point import CENTER, anchor
 from .grammar.file import File
-from .grammar.source import Source as Book
+from .grammar.file import Source as Book
 
 
 def resolve_scene(file: File) -> Scene:

@@ -13,9 +13,9 @@ from ..fields.signal import Signal
 from .body import Body
 from .constraint import Edge
 from .contact import Contact
-from .forces.couple import Couple
 from .forces.element import Limit
 from .forces.force import (
+    Couple,
     Damper,
     Drag,
     Force,

@@ -17,7 +17,7 @@ from .adapter.claims import answered
 from .adapter.plans import numbers_by_name
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
-from .callbacks.inner_state import states
+from .callbacks.point_forces import states
 from .read.health import Left
 from .read.measure import measured
 from .read.record import Record

@@ -11,17 +11,25 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cases.case import Case, Placement
-from ...cases.scene import Anchor, Vector
+from ...cases.scene import Anchor, Joint, Signal, Vector
+from ...cases.scene.joint import Freedom
 from ...cases.scene.pair import Pair
 from ...cases.scene.plane import LEVEL
 from ..mechanism.constraints.constraint import Constraint, tracked
-from ..mechanism.constraints.constraint_terms import FIRST, Along
+from ..mechanism.constraints.constraint_terms import (
+    FIRST,
+    SECOND,
+    Along,
+    Given,
+    Line,
+    Term,
+    Turning,
+)
 from ..mechanism.constraints.equation_table import Table
 from ..mechanism.constraints.joint_constraints import constraints, gliding
 from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.modes.unilateral import along, apart
 from ..system import Array
-from .posed import moving, posed
 
 POSITIONS = {"x": 0, "y": 1, "angle": 2}
 FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
@@ -203,3 +211,53 @@ def held_angles(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, 
             elif lock.a is not None and a is None and b is not None:
                 found[lock.a] = b - lock.angle
     return found
+
+
+# The start of joints: places and rates of the second part against the first, where given.
+#
+# They hold at the start only.
+
+
+Row = tuple[Term, ...]
+
+
+def posed(case: Case, where: Coordinates) -> Iterator[Constraint]:
+    """φ_B − φ_A = angle, u·(r_B − r_A) = shift."""
+    for joint, freedom in _freedoms(case):
+        given = case.initial[joint.name].given
+        if freedom.name in given:
+            row, place = difference(freedom), given[freedom.name]
+            yield Constraint(joint.name, (joint.a, joint.b), (row,), ((),), (place,), where)
+
+
+def moving(case: Case, where: Coordinates) -> Iterator[Constraint]:
+    """ω_B − ω_A = omega, d/dt u·(r_B − r_A) = speed."""
+    for joint, freedom in _freedoms(case):
+        rate = case.initial[joint.name].given.get(freedom.rate)
+        if rate is not None:
+            row = difference(freedom)
+            given = Given(Signal("constant", (rate,)), angular=row[0].angular)
+            yield Constraint(joint.name, (joint.a, joint.b), ((*row, given),), ((),), None, where)
+
+
+def silent(case: Case, where: Coordinates) -> Iterator[Constraint]:
+    """ω_B − ω_A and d/dt u·(r_B − r_A) of joints that give the place of these, and not the rate."""
+    for joint, freedom in _freedoms(case):
+        given = case.initial[joint.name].given
+        if freedom.name in given and freedom.rate not in given:
+            row = difference(freedom)
+            yield Constraint(joint.name, (joint.a, joint.b), (row,), ((),), None, where)
+
+
+def _freedoms(case: Case) -> Iterator[tuple[Joint, Freedom]]:
+    """Yields the freedoms that have names, of the joints by which a part starts."""
+    for joint in case.scene.joints.values():
+        if joint.name in case.initial:
+            yield from ((joint, freedom) for freedom in joint.rates.values())
+
+
+def difference(freedom: Freedom) -> Row:
+    """φ_B − φ_A, or u·(r_B − r_A) with u fixed in the first part."""
+    if freedom.kind == "shift":
+        return (Line(FIRST, SECOND, freedom.axis),)
+    return Turning(SECOND), Turning(FIRST, -1.0)

@@ -7,8 +7,7 @@ import numpy as np
 from ...cases.scene import GROUND, Scene
 from ..system import Array
 from . import messages, refusal
-from .closure import RATES, Closure
-from .posed import silent
+from .closure import RATES, Closure, silent
 from .positions import undetermined
 from .search import CLOSED, RANK, least, rank
 

@@ -8,10 +8,8 @@ import click
 
 from ...cases.mistake import CaseError
 from ..show.console import say, tell
-from .answer import as_json
 from .done import finished
-from .folder import Folder
-from .options import allow_long, jobs, named_engines, no_cache, overwrite
+from .options import Folder, allow_long, as_json, jobs, named_engines, no_cache, overwrite
 
 PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what each allows
 

@@ -9,9 +9,8 @@ import click
 
 from ...cases.mistake import CaseError
 from ..show.console import say, tell
-from .answer import BAD_INPUT, as_json
 from .done import finished
-from .options import allow_long, jobs, named_engines, no_cache
+from .options import BAD_INPUT, allow_long, as_json, jobs, named_engines, no_cache
 
 if TYPE_CHECKING:
     from ..data.row import Cause

@@ -9,8 +9,7 @@ import click
 
 from ...cases.mistake import CaseError, Mistake
 from ..show.console import say
-from .answer import BAD_INPUT, FAILED, as_json
-from .options import allow_long, processes
+from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
 
 if TYPE_CHECKING:
     from ...cases.case import Case

@@ -10,8 +10,7 @@ import click
 
 from ...cases.mistake import CaseError, Mistake, nearest
 from ..show.console import say
-from .answer import FAILED, as_json
-from .options import jobs
+from .options import FAILED, as_json, jobs
 
 if TYPE_CHECKING:
     from ...engines.engine import Engine

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from ..show.console import say
-from .answer import FAILED, as_json
+from .options import FAILED, as_json
 
 COMMITTED = Path(__file__).parents[1]
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ..show.console import say
-from .answer import as_json
+from .options import as_json
 
 if TYPE_CHECKING:
     from ...cases.titled import Titled

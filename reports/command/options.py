@@ -1,12 +1,19 @@
 """Arguments and options that several commands have, said in the same words."""
 
-from collections.abc import Callable
+import atexit
+import os
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import wraps
+from pathlib import Path
 from typing import Any
 
 import click
 
+from ...cases.mistake import CaseError
 from ..data.ownership import OVERWRITE
 from ..system.limit import choose
+from ..system.temporary_folder import adopt
 
 Decorated = Callable[[Any], Any]
 
@@ -77,3 +84,75 @@ def own_settings(becomes: str = "stands beside them, by its name") -> Decorated:
         metavar="shipped|recommended|tuned|FILE",
         help=f"Only this setting; a FILE of your own engine options {becomes}. May be repeated.",
     )
+
+
+# The option `--json`: a command answers with one document, whatever becomes of it.
+
+
+FAILED = 1
+BAD_INPUT = 2
+
+
+def as_json(command: Callable[..., None]) -> Callable[..., None]:
+    """Adds the option, as `wants_json`; mistakes that end the command are its document then."""
+
+    @wraps(command)
+    def answered(*args: Any, wants_json: bool, **kwargs: Any) -> None:
+        try:
+            command(*args, wants_json=wants_json, **kwargs)
+        except CaseError as error:
+            if not wants_json:
+                raise
+            from ..show import document
+
+            found = document.mistakes(error.mistakes)
+            document.write({"mistakes": found, "exit_code": BAD_INPUT})
+            raise click.exceptions.Exit(BAD_INPUT) from None
+
+    what = "Print one JSON document, for scripts."
+    return click.option("--json", "wants_json", is_flag=True, help=what)(answered)
+
+
+# A folder that is named on the command line.
+
+
+class Folder(click.Path):
+    """A folder to write into, by a name that is not empty."""
+
+    def __init__(self) -> None:
+        super().__init__(file_okay=False, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The folder, made where there was none: before the work, not after it."""
+        if not value:
+            self.fail("the folder's name is empty; the current one is '.'", param, ctx)
+        folder = Path(str(super().convert(value, param, ctx)))
+        missing = [each for each in (folder, *folder.parents) if not os.path.lexists(each)]
+        atexit.register(_unmade, missing)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            _tried(folder)
+            adopt(folder)
+        except OSError as error:
+            self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
+        return folder
+
+
+def _unmade(folders: Sequence[Path]) -> None:
+    """Away with what was made, the innermost first, and has nothing in it: a refused command's."""
+    with suppress(OSError):
+        for folder in folders:
+            folder.rmdir()
+
+
+def _tried(folder: Path) -> None:
+    """Makes something there and takes it away, if it is interrupted too. Raises OSError."""
+    probe = f"{folder}{os.sep}.writing-{os.getpid()}"
+    try:
+        os.mkdir(probe)
+    finally:
+        # Not by `suppress`: an interruption may come where that is entered.
+        try:  # noqa: SIM105
+            os.rmdir(probe)
+        except OSError:  # it was never made, or another run has swept it
+            pass

@@ -6,10 +6,10 @@ import click
 
 from ...cases.mistake import CaseError
 from ..show.console import say, tell
-from .answer import BAD_INPUT
-from .folder import Folder
 from .looking import looked_at
 from .options import (
+    BAD_INPUT,
+    Folder,
     allow_long,
     jobs,
     named_cases,

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 import click
 
 from ..show.console import tell
-from .answer import BAD_INPUT, FAILED, as_json
 from .done import DONE, written
-from .folder import Folder
 from .looking import left_out, looked_at
 from .options import (
+    BAD_INPUT,
+    FAILED,
+    Folder,
     allow_long,
+    as_json,
     jobs,
     named_cases,
     named_engines,

@@ -8,8 +8,7 @@ import click
 
 from ..show.console import say, tell
 from .done import DONE
-from .folder import Folder
-from .options import allow_long, jobs, overwrite, own_settings
+from .options import Folder, allow_long, jobs, overwrite, own_settings
 
 CASES = (
     *("bar_pendulum", "double_pendulum", "four_bar", "slider_crank"),

@@ -8,8 +8,7 @@ import click
 
 from textmech.reports import cli
 from textmech.reports.batch.selection import choose_cases, choose_engines
-from textmech.reports.command.answer import FAILED
-from textmech.reports.command.options import allow_long, named_cases, named_engines
+from textmech.reports.command.options import FAILED, allow_long, named_cases, named_engines
 from textmech.reports.show.console import say
 
 from . import adapters, table

@@ -13,9 +13,8 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Scene
 from textmech.cases.scene import observe as looking
-from textmech.cases.scene.forces.couple import Couple
 from textmech.cases.scene.forces.drag import Drag, Viscous
-from textmech.cases.scene.forces.force import Damper, Force, Push, Spring, Torque
+from textmech.cases.scene.forces.force import Couple, Damper, Force, Push, Spring, Torque
 from textmech.cases.scene.forces.muscle import LinearMuscle, Muscle
 from textmech.cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from textmech.cases.scene.joint import Joint

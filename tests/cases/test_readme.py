@@ -9,8 +9,9 @@ from textmech.cases import find
 from textmech.cases.fields.friction_grammar import Coefficients, DryFriction
 from textmech.cases.fields.number import amount
 from textmech.cases.fields.part import written
-from textmech.cases.language.grammar import body, constraint, force, joint
 from textmech.cases.language.grammar import file as grammar
+from textmech.cases.language.grammar import joint
+from textmech.cases.language.grammar import scene as words
 from textmech.cases.language.grammar.contact import Contact as ContactSpec
 from textmech.cases.language.grammar.file import File
 from textmech.cases.language.grammar.scene import Scene
@@ -33,8 +34,7 @@ from textmech.cases.scene import (
 )
 from textmech.cases.scene import DryFriction as Dry
 from textmech.cases.scene import Scene as Resolved
-from textmech.cases.scene.forces.rope import Rope
-from textmech.cases.scene.forces.stops import Stops
+from textmech.cases.scene.forces.limit import Rope, Stops
 from textmech.cases.scene.quantity import event_quantities, table
 
 WHOLE = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
@@ -54,7 +54,12 @@ def test_every_key_is_explained() -> None:
     said = set(re.findall(r"[a-z_]+", " ".join(block + word for block, word in code)))
     models = [File, Scene, grammar.Source, grammar.Deviation, Initial]
     models += [ContactSpec, Coefficients, DryFriction]
-    for kinds in (body.KINDS[2], joint.KINDS[2], constraint.KINDS[2], force.KINDS[2]):
+    for kinds in (
+        words.BODY_KINDS[2],
+        joint.KINDS[2],
+        words.CONSTRAINT_KINDS[2],
+        words.FORCE_KINDS[2],
+    ):
         models += kinds.values()
     for model in models:
         assert set(written(model)) <= said, model

@@ -9,7 +9,7 @@ import pytest
 from given.claims import CHAIN, PLANE, claimed
 
 from textmech.cases import find
-from textmech.cases.language.grammar.states import Drawn
+from textmech.cases.language.grammar.file import Drawn
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.quantity import table

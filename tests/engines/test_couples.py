@@ -11,7 +11,7 @@ from given import scenes, torsion
 from given.planning import TUNED, moved
 
 from textmech.cases.case import Case
-from textmech.cases.scene.forces.couple import Couple
+from textmech.cases.scene.forces.force import Couple
 from textmech.engines.engine import Start
 from textmech.engines.mujoco.model import force as mujoco_force
 from textmech.engines.mujoco.model import force as of_mujoco

@@ -9,7 +9,7 @@ from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_cases, choose_engines
 from textmech.reports.batch.suite import Report
-from textmech.reports.compare.judge.rounding import EPSILON
+from textmech.reports.compare.judge.metric import EPSILON
 from textmech.reports.data.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
 from textmech.reports.output import write
 from textmech.reports.show import readme

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from given.command import NEW, textmech
 
-from textmech.reports.command.folder import Folder
+from textmech.reports.command.options import Folder
 from textmech.reports.output import write
 from textmech.reports.show.console import shown
 

@@ -13,7 +13,7 @@ from subprocess import PIPE, Popen
 import pytest
 from given.trees import digest
 
-from textmech.reports.command.folder import Folder
+from textmech.reports.command.options import Folder
 from textmech.reports.system import temporary_folder as room
 from textmech.reports.system.temporary_folder import passing
 

@@ -1,4 +1,4 @@
-"""Which digits are told: of a certificate a power of ten above it, of a row what is no rounding."""
+"""Which digits are told: of a certificate a power of ten above it, of a row what is no metric."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -12,7 +12,7 @@ from given.report_folders import CERTIFICATE
 
 from textmech.cases.case import Case
 from textmech.reports.batch.suite import Report
-from textmech.reports.compare.judge import metric, rounding
+from textmech.reports.compare.judge import metric
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import FAILS
 from textmech.reports.output import motion_files, write
@@ -45,13 +45,13 @@ def test_a_certified_error_is_told_larger_and_by_less_than_ten_times() -> None:
 def test_what_rounding_makes_of_a_motion_is_no_digit(trial: Callable[..., Trial]) -> None:
     """A random walk of 1000 steps, each off by the last bit of 1 m, stays below the floor."""
     made = trial()
-    floor = rounding.floor(made, "ball.x", 1e-3)
+    floor = metric.floor(made, "ball.x", 1e-3)
     chance = np.random.default_rng(1)
-    walks = np.cumsum(chance.choice([-1, 1], (200, 1000)), axis=1) * rounding.EPSILON
+    walks = np.cumsum(chance.choice([-1, 1], (200, 1000)), axis=1) * metric.EPSILON
     assert np.max(np.abs(walks)) < floor < 100 * np.max(np.abs(walks))
     assert metric.round_to_floor(1 / 3, floor) == pytest.approx(1 / 3, abs=10 * floor)
     assert metric.round_to_floor(floor / 3, floor) == 0.0
-    bare = otherwise(rounding, "MARGIN * EPSILON * made", "EPSILON * made / MARGIN")
+    bare = otherwise(metric, "MARGIN * EPSILON * made", "EPSILON * made / MARGIN")
     assert bare.floor(made, "ball.x", 1e-3) < np.max(np.abs(walks))
 
 

@@ -1,19 +1,159 @@
 """The keys that may stand in a case file. cases/README.md explains every one by an example."""
 
-from typing import Annotated, Any
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, get_args
 
-from pydantic import Field, Tag
+from pydantic import AfterValidator, BeforeValidator, Field, Tag
 
-from ...fields.field import Bound, In, Literal
-from ...fields.number import Amount
-from ...fields.part import Name, Part, plain_or_map
-from ...fields.text import Text, label, no_formula
+from ...fields.event import Rule
+from ...fields.field import NUMBER, Bound, In, Literal, Plain
+from ...fields.number import Amount, Names, number, shown
+from ...fields.part import Name, Part, plain_or_list, plain_or_map
+from ...fields.text import THREAD, Place, Text, Word, asked, equation, label, no_formula
 from ...fields.words import wrong
-from .event import Event, Quantity
+from ...mistake import NO_VALUE, nearest
+from ...scene.states import Span, States
 from .scene import Scene, SpatialScene
-from .source import Source
 from .start import Initial, Near, SpatialStart
-from .states import Drawn
+
+# A claim about states as a case file writes it, in place of a start and a duration.
+
+
+MOST = 10_000  # states of a file: a minute of its reference
+
+
+def _ordered(span: Span) -> Span:
+    if span[0] > span[1]:
+        raise wrong(f"should be a list [low, high], is [{span[0]:g}, {span[1]:g}]")
+    return span
+
+
+_Number = Annotated[float, In("1")]
+_Span = Annotated[tuple[_Number, _Number], AfterValidator(_ordered)]
+
+
+def _few(count: int) -> int:
+    if count > MOST:
+        raise wrong(f"must be at most {MOST}, is {count}")
+    return count
+
+
+class Drawn(Part):
+    """So many unrelated states, with every coordinate drawn evenly from a span, in SI."""
+
+    random: Annotated[int, AfterValidator(_few)] = Field(ge=3, description="how many")
+    seed: int = Field(ge=0, description="of the random numbers: another one draws other states")
+    q: _Span = Field(description="from which the places are drawn, [low, high] in m and rad")
+    q_dot: _Span = Field(description="from which the rates are drawn")
+    q_ddot: _Span = Field((0.0, 0.0), description="from which the accelerations are drawn")
+
+    @property
+    def states(self) -> States:
+        """As a noun."""
+        return States(self.random, self.seed, self.q, self.q_dot, self.q_ddot)
+
+
+# Events as a case file writes them: one quantity and its rule.
+#
+# `{touch.slip: stays zero}`, `{jumper.y: {falls to: 0.5}}`.
+
+
+RULES: tuple[Rule, ...] = get_args(Rule)
+CROSSES: Mapping[str, Rule] = {"falls to": "falls to zero", "rises to": "rises to zero"}
+MAP = "`{falls to: 0.5}`"
+
+Quantity = Annotated[str, Text(description="part.field, as crank.angle")]
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A rule, and to which value the quantity comes; its unit is known when the scene is."""
+
+    word: Rule
+    to: Amount
+
+
+@dataclass(frozen=True)
+class RuleWords(Plain):
+    """A rule in words, or a map of one, `{falls to: 0.5}`, with the value it comes to."""
+
+    def check(self, value: object, known: Names) -> Crossing:
+        if isinstance(value, str):
+            return Crossing(_word(value, known), Amount(0.0))
+        if not isinstance(value, dict):
+            raise wrong(f"should be one of {', '.join(RULES)}, or {MAP}, is {shown(value)}")
+        if len(value) != 1:
+            raise wrong(f"should be one rule with its value, as {MAP}, has {len(value)}")
+        ((word, to),) = value.items()
+        if word not in CROSSES:
+            raise wrong(f"unknown rule {word!r}{nearest(word, CROSSES)}")
+        if to is None:
+            raise wrong(NO_VALUE)
+        return Crossing(CROSSES[word], number(to, None, known) or Amount(float("nan")))
+
+    def schema(self) -> dict[str, Any]:
+        to = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+        to["description"] = f"{NUMBER}, in the quantity's unit"  # type: ignore[assignment]
+        value = {
+            "type": "object",
+            "properties": dict.fromkeys(CROSSES, to),
+            "additionalProperties": False,
+            "minProperties": 1,
+            "maxProperties": 1,
+        }
+        return {"anyOf": [{"enum": list(RULES)}, value]}
+
+
+def _word(text: str, known: Names) -> Rule:
+    for way in CROSSES:
+        if text.startswith(f"{way} ") and text not in RULES:
+            raise wrong(f"unknown rule {text!r}; a value other than zero is written as {MAP}")
+    word: Any = Word("rule", RULES).check(text, known)
+    return word
+
+
+def _one(value: object) -> object:
+    if isinstance(value, dict) and len(value) == 1:
+        return value
+    has = f"has {len(value)}" if isinstance(value, dict) else f"is {shown(value)}"
+    raise wrong(f"should be one quantity with its rule (`touch.slip: stays zero`), {has}")
+
+
+Event = Annotated[
+    dict[Quantity, Annotated[Crossing, RuleWords()]],
+    BeforeValidator(_one),
+    Field(json_schema_extra={"minProperties": 1, "maxProperties": 1}),
+]
+
+
+# Where a case comes from: places in the book, or the public question that it answers.
+
+
+BookPlace = Annotated[str, Place()]
+Places = Annotated[
+    Annotated[str, Place(), Tag("<plain>")] | Annotated[tuple[BookPlace, ...], Tag("<list>")],
+    plain_or_list(),
+]
+
+
+class Source(Part):
+    """Where the case comes from: places in the book as text, for "2.10" is not 2.1; a question."""
+
+    equations: tuple[Annotated[str, Place(equation, r"^2\.[1-9][0-9]?$")], ...] = ()
+    example: BookPlace | None = None
+    exercise: BookPlace | None = None
+    figure: Places | None = None  # one, or a list of several
+    section: BookPlace | None = None
+    thread: Annotated[str, Text(asked, THREAD)] | None = Field(
+        default=None, description="the public question that it answers: owner/repository#number"
+    )
+
+    @property
+    def figures(self) -> tuple[str, ...]:
+        """The figures that are given."""
+        return (self.figure,) if isinstance(self.figure, str) else self.figure or ()
+
 
 WAYS = ("", ".law", ".driver", ".limit")  # after an engine's name: which of its rows
 

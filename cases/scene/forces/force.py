@@ -21,14 +21,63 @@ from ...trajectory import Array
 from ..body import Body
 from ..motion import Motion
 from ..point import CENTER, GROUND, Anchor
-from .couple import Couple
 from .drag import Drag, Viscous
 from .element import Force
-from .magnetic import Magnetic
+from .limit import Rope, Stops
 from .muscle import LinearMuscle, Muscle
-from .rope import Rope
-from .stops import Stops
 from .turning import Motor, Torsion, TorsionDamper
+
+# The force of a magnetic field on a charge that a body carries in its centre.
+
+
+@dataclass(frozen=True)
+class Magnetic(Force):
+    """(2.49) V = ½ e B (y ẋ − x ẏ): F = e ṙ × B on the centre of a body, B along z everywhere."""
+
+    word = "magnetic"
+    works = False  # it is across the velocity
+    body: str  # that carries the charge in its centre
+    charge: Annotated[float, In("C")]  # e
+    along_z: Annotated[float, In("T")]  # B
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The body's centre."""
+        return (Anchor(self.body, CENTER),)
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """e B/m."""
+        return abs(self.charge * self.along_z) * mobility(Anchor(self.body, CENTER)), 0.0
+
+
+# A torque between two bodies, which no joint has to hold together.
+
+
+@dataclass(frozen=True)
+class Couple(Force):
+    """A torque of the first body on the second, which takes its opposite."""
+
+    word = "couple"
+    first: str  # the body that takes the opposite
+    second: str  # the body that it turns
+    signal: Annotated[Signal, InTime("N m", axes=1)]  # on the second, counter-clockwise
+
+    def refers(self) -> tuple[Anchor, ...]:
+        """The bodies' centres: any points would do."""
+        return Anchor(self.first, CENTER), Anchor(self.second, CENTER)
+
+    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+        """A particle takes no torque."""
+        still = [b for b in (self.first, self.second) if b in bodies and not bodies[b].turns]
+        return f"{still[0]!r} is a particle and cannot turn" if still else None
+
+    def power(self, motion: Motion) -> Array:
+        """M (ω₂ − ω₁)."""
+        rate = motion.spin(self.second) - motion.spin(self.first)
+        return np.sum(self.signal.at(motion.trajectory.times) * rate, axis=1)
+
+    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
+        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
+        return self.signal.angular_frequency, 0.0
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from ....cases.scene.frame import SPACE
 from ....cases.trajectory import Array
 from ...engine import Choice, Plan, Start
 from ..callbacks.contact_friction import one_touch, touches
-from ..callbacks.inner_state import acting
+from ..callbacks.point_forces import acting
 from ..callbacks.rope_limit import draw, ropes_of
 from ..callbacks.settle import settle
 from ..callbacks.settle_in_space import settle_in_space

@@ -6,8 +6,7 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
 from ...engine import Diverged, Realised, Start
-from ..callbacks.inner_state import activations, rated
-from ..callbacks.point_forces import point_force_callbacks
+from ..callbacks.point_forces import activations, point_force_callbacks, rated
 from ..callbacks.signal import Corners, listening, signals
 from ..model.drive import controls
 from ..read.poses import poses

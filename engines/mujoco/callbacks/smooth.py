@@ -9,8 +9,7 @@ from ....cases.scene import DryFriction, Scene
 from ....cases.trajectory import Array
 from ...law import smooth_under
 from ..model.tree import dry_joints
-from .friction import uncoupled
-from .loop_inertia import closed
+from .friction import closed, uncoupled
 from .signal import Control, bound
 
 Acting = Callable[[], float]

@@ -1,4 +1,4 @@
-"""What holds on one side: ropes, and stops of a joint's turn."""
+"""Elements that hold on one side: ropes, and stops of a joint's turn."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,8 +8,7 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import Limit
-from ....cases.scene.forces.rope import Rope
-from ....cases.scene.forces.stops import Stops
+from ....cases.scene.forces.limit import Rope, Stops
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .bounce import dead, springy

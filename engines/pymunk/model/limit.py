@@ -1,11 +1,10 @@
-"""What holds on one side: ropes, and stops of a joint's turn."""
+"""Elements that hold on one side: ropes, and stops of a joint's turn."""
 
 import math
 
 from pymunk.constraints import RotaryLimitJoint, SlideJoint
 
-from ....cases.scene.forces.rope import Rope
-from ....cases.scene.forces.stops import Stops
+from ....cases.scene.forces.limit import Rope, Stops
 from ...engine import Choice
 from .world import World
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ....cases.scene import CENTER, Anchor, Bounds, Limit, Scene
-from ....cases.scene.forces.couple import Couple
 from ....cases.scene.forces.drag import Drag, Viscous
 from ....cases.scene.forces.force import (
+    Couple,
     Damper,
     Force,
     LinearMuscle,

@@ -19,8 +19,7 @@ from typing import Any
 
 from ....cases.scene import CENTER, Anchor, Limit, Scene
 from ....cases.scene.forces.force import Spring
-from ....cases.scene.forces.rope import Rope
-from ....cases.scene.forces.stops import Stops
+from ....cases.scene.forces.limit import Rope, Stops
 from ....cases.scene.pair import Pair
 from ...system import Array
 from ..constraints.constraint import Constraint, row

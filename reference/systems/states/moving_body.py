@@ -9,9 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from ...laws.energy import of_general_point
 from ...laws.inertia import steiner
-from ...laws.momentum import angular_momentum, moment_change, momentum, spin_change
+from ...laws.momentum import (
+    angular_momentum,
+    moment_change,
+    momentum,
+    of_general_point,
+    spin_change,
+)
 from ...laws.rotation import acceleration, angular_velocity, axis_rates, point, velocity
 from ...stated import Stated
 from ...system import Array, Pose, Vector

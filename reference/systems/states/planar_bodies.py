@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...laws.energy import of_center
-from ...laws.momentum import angular_momentum, momentum, spin_momentum
+from ...laws.momentum import angular_momentum, momentum, of_center, spin_momentum
 from ...laws.rotation import point, velocity
 from ...stated import Stated
 from ...system import Array, Pose, Vector

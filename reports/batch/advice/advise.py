@@ -16,9 +16,8 @@ from ...system.pool import Died, local, workers
 from ..cache.key import Keys
 from ..cache.store import Store, passing
 from ..search.candidate import Candidate
-from ..search.parallel_search import Asking, Known, Search, together
+from ..search.parallel_search import Asking, Known, Search, lost, together
 from ..search.solving import solved
-from ..search.tunable import lost
 from ..task_results import Progress, Results
 from ..tasks import Pair
 from .advice_rows import Advised, Asked

@@ -17,13 +17,11 @@ from ...data.row import UNSEARCHED, Cause, Comparison, StepError, as_written
 from ..task_results import Results
 from ..tasks import Pair
 from .candidate import Candidate
-from .cause_rows import NONE, NOTHING, Asked, by_ladder, by_ours, searched, without
+from .cause_rows import NONE, NOTHING, Asked, by_ladder, by_ours, climbed, searched, without
 from .change import STEP, Field, halved, levers, remainder
 from .cures import Cured, cures
-from .ladder import climbed
-from .parallel_search import Search, together
+from .parallel_search import Search, lost, together
 from .solving import solved
-from .tunable import lost
 from .why import Key, Rows, key_of
 
 LETTERS = 12  # of a word: two searches never share them

@@ -32,8 +32,7 @@ from . import instants, metric, states
 from .cause import cause
 from .convergence import Convergence, study
 from .error_instant import moment
-from .metric import round_to_floor
-from .rounding import floor
+from .metric import floor, round_to_floor
 from .rows import judged, row, rungs, steps
 from .verdict import verdict
 

@@ -16,7 +16,7 @@ from ..trial.trial import Trial
 from . import metric
 from .cause import cause
 from .convergence import Convergence, instants
-from .rounding import floor
+from .metric import floor
 from .rows import judged, row
 from .verdict import verdict
 

@@ -7,8 +7,7 @@ from ...data.row import Comparison, Rungs, StepError
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
 from .convergence import Convergence
-from .metric import Error, round_to_floor
-from .rounding import floor
+from .metric import Error, floor, round_to_floor
 
 
 def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:

@@ -5,8 +5,7 @@ from ..trial.run import Samples
 from ..trial.trial import Trial
 from . import metric
 from .convergence import Convergence
-from .metric import round_to_floor
-from .rounding import floor
+from .metric import floor, round_to_floor
 from .rows import row
 from .verdict import verdict
 

@@ -5,7 +5,8 @@ from inspect import signature
 from pathlib import Path
 
 from textmech.cases import find
-from textmech.cases.language.grammar import body, constraint, force, joint
+from textmech.cases.language.grammar import joint
+from textmech.cases.language.grammar import scene as words
 from textmech.cases.language.grammar.contact import Rolling
 from textmech.cases.language.grammar.scene import SpatialScene as Words
 from textmech.cases.language.grammar.start import SpatialStart, Turn
@@ -32,7 +33,12 @@ def test_every_key_is_explained() -> None:
     code = re.findall(r"```yaml\n(.*?)```|`([^`]+)`", README, flags=re.DOTALL)
     said = set(re.findall(r"[a-zA-Z_]+", " ".join(block + word for block, word in code)))
     models = [Words, Rolling, SpatialStart, Turn, joint.FreeShift, joint.FreeTurn]
-    for kinds in (body.KINDS[3], joint.KINDS[3], force.KINDS[3], constraint.KINDS[3]):
+    for kinds in (
+        words.BODY_KINDS[3],
+        joint.KINDS[3],
+        words.CONSTRAINT_KINDS[3],
+        words.FORCE_KINDS[3],
+    ):
         models += kinds.values()
     for model in models:
         assert set(model.model_fields) <= said, model

@@ -13,7 +13,7 @@ from given.planning import TUNED, begun, moved
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Realised
-from textmech.engines.pymunk.callbacks import force_points as points
+from textmech.engines.pymunk.callbacks import point_forces as points
 from textmech.engines.pymunk.callbacks.friction import turn
 from textmech.engines.pymunk.model import limit
 from textmech.engines.pymunk.model.pair import closed_pairs

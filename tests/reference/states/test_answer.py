@@ -15,7 +15,7 @@ from textmech.cases.case import Case, Placement
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Scene, Signal
 from textmech.cases.trajectory import Array
-from textmech.reference.laws import energy, inertia, momentum, rotation
+from textmech.reference.laws import inertia, momentum, rotation
 from textmech.reference.solve import solve
 from textmech.reference.start.assembly import mechanism
 from textmech.reference.stated import Stated
@@ -66,7 +66,7 @@ MISTAKES: dict[str, tuple[str, Any, str, Callable[..., Any]]] = {
     "Steiner lost": ("moving_body", moving_body, "steiner", lambda J, m, a: J),
     "half of (2.53) lost": (
         "moving_body", moving_body, "of_general_point",
-        lambda m, J, v, omega, x: energy.of_general_point(m, J, v, omega, 0 * x),
+        lambda m, J, v, omega, x: momentum.of_general_point(m, J, v, omega, 0 * x),
     ),
     "(2.28) without m r̈_A × a": (
         "moving_body", moving_body, "moment_change", lambda M, m, a_A, a: M

@@ -20,17 +20,13 @@ ALLOWED = {
     # scene.
     *("reference.system", "reference.laws.friction", "reference.laws.rotation"),
     # And those of one body, that the generated answers do without (below).
-    *("reference.laws.inertia", "reference.laws.momentum", "reference.laws.energy"),
+    *("reference.laws.inertia", "reference.laws.momentum"),
     "reference.stated",
-    # The mathematics of closed forms, and closed forms in files of their own.
+    # The mathematics of closed forms.
     *(f"{HERE}.elliptic", f"{HERE}.quadrature"),
-    *(f"{HERE}.tops.nutation", f"{HERE}.tops.polhode", f"{HERE}.walkers.spoke_steps"),
-    f"{HERE}.rolling.tilting_ring",  # of which a disk is one
     f"{HERE}.friction.dynamometer",  # by which a block on a floor is drawn
     f"{HERE}.pendula.elastic_pendulum",  # which a mass on a leg is
-    f"{HERE}.walkers.spring_mass_jump",  # of which a run is several
     f"{HERE}.walkers.compass_walker",  # which the simplest walker is, before its limit
-    f"{HERE}.muscles.muscle_load",  # of which one is held
     *(f"{HERE}.rolling.blade_on_plane", f"{HERE}.rolling.wheel_on_plane"),
     *(f"{HERE}.robots.{name}" for name in ("triples", "arm", "serial_arm")),
     *(f"{HERE}.friction.{name}" for name in ("stick_slip", "slope", "block_on_guide")),

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 from given.otherwise import otherwise
 
-from textmech.reports.batch.search import ladder as told
+from textmech.reports.batch.search import cause_rows as told
 from textmech.reports.batch.search.candidate import Candidate
-from textmech.reports.batch.search.ladder import climbed
+from textmech.reports.batch.search.cause_rows import climbed
 from textmech.reports.data.row import BEYOND, Comparison, StepError
 
 BASE = Candidate.of({}, 2e-3)
