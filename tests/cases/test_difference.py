@@ -118,6 +118,7 @@ def test_what_is_observed_does_not_know_the_sign_of_a_quaternion(name: str) -> N
         assert np.max(apart(own, observe(case.scene, other, quantity))) < 1e-13 * size, quantity
 
 
+@pytest.mark.slow
 def test_the_certificate_compares_attitudes() -> None:
     motion = scenes.solved("heavy_top.loops").trajectory
     assert agreement.difference(motion, opposite(motion)) < EPS

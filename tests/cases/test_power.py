@@ -172,6 +172,7 @@ def test_a_torque_does_what_the_energy_of_the_turn_gains(
     assert balance(case.scene, motion) > WRONG
 
 
+@pytest.mark.slow
 def test_work_over_knee_bends_by_known_functions() -> None:
     """φ = (A/Ω)(1 − cos Ωt): what the spring takes and returns, and what the damper keeps."""
     m, length, c, d, A, Omega = 3.5, 0.45, 40.0, 1.5, 2.5, 5.0

@@ -78,6 +78,7 @@ def test_its_dimension_is_that_of_pint(word: str) -> None:
     assert {k: v for k, v in ours.items() if k not in OWN} == dict(expected.items())
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("unit: {old} for {new}")
 @pytest.mark.parametrize(
     ("new", "old"),

@@ -94,6 +94,7 @@ def test_pymunk_says_what_it_does_not_know(tmp_path: Path) -> None:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{name}: mass of a body 5 % off in the engine alone")
 @pytest.mark.parametrize("name", scenes.CLAIMS)
 @pytest.mark.parametrize("engine", [MUJOCO, PYMUNK], ids=words)

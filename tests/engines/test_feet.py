@@ -71,6 +71,7 @@ def test_a_floor_that_meets_every_foot_is_seen(name: str, monkeypatch: pytest.Mo
     assert max(off(TUNED[name], 1e-3)) > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "a strike without an impulse",
     "a strike after which both feet stand",

@@ -108,6 +108,7 @@ def test_a_wheel_rolls(variant: str, name: str) -> None:
     assert run.reactions["touch.tangent"] == pytest.approx(-pull / 3, abs=force)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_a_driven_point_pushes_and_forces_in_time(name: str) -> None:
     exact, (scene, start) = solved("towed_pendulum").trajectory, begun("towed_pendulum")

@@ -132,6 +132,7 @@ def test_no_other_interval_is_declared() -> None:
     assert found == {*ONE, *bounces, "planar_bodies", "rimless_wheel"}
 
 
+@pytest.mark.slow
 def test_a_tip_in_the_air_lacks_the_whole_force() -> None:
     """At a sample 5.6 ms after a strike nothing carries: what is missing is the reference's."""
     case, motion = scenes.SHIPPED["rimless_wheel"], scenes.solved("rimless_wheel").trajectory

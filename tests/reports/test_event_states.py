@@ -249,6 +249,7 @@ def test_what_happens_without_end_has_no_count(bouncing: Callable[..., Any], e: 
         assert all(f"happens without end before {end:.4g} s" in each.what for each in found)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a pile of events that is not told")
 def test_a_pile_that_is_not_told_would_be_seen(bouncing: Callable[[str], Any]) -> None:
     case = replace(bouncing("lands.count: 0.5"), duration=1.6)

@@ -230,6 +230,7 @@ def test_a_strangers_table_beside_a_report_is_not_compared(tmp_path: Path, folde
     assert done.stdout.strip().endswith("nothing changed")
 
 
+@pytest.mark.slow
 def test_a_refused_command_leaves_no_empty_folder(tmp_path: Path) -> None:
     command = [sys.executable, "-c", "from textmech.reports.start import main; main()", "run"]
     for words in (["nope.yaml"], ["bar_pendulum", "--engine", "nope"]):

@@ -146,6 +146,7 @@ KNOWN = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "engine", "what", "value", "within"), KNOWN, ids=str)
 def test_shipped_engines(name: str, engine: str, what: str, value: float, within: float) -> None:
     case, reference, shipped = CASES[name], solved(name).trajectory, SHIPPED[engine]
@@ -154,6 +155,7 @@ def test_shipped_engines(name: str, engine: str, what: str, value: float, within
     assert found.value == pytest.approx(value, abs=within)
 
 
+@pytest.mark.slow
 def test_bodies_on_each_other() -> None:
     """A corner 2 mm deep in the other's face, and past the end of the face, where it is not."""
     name = "stacked_blocks.pulled"

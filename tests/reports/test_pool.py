@@ -188,6 +188,7 @@ def helped(task: int) -> int:
     return task
 
 
+@pytest.mark.slow
 def test_what_a_task_leaves_running_hides_no_death() -> None:
     begun = time.monotonic()
     with pool.local(1) as executor:

@@ -59,6 +59,7 @@ def unhurried(names: list[str], short: set[str]) -> list[Any]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", unhurried(SMOOTH, SHORT))
 def test_a_smooth_case_moves_the_same(name: str) -> None:
     case = both.reread(name)

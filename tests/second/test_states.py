@@ -114,6 +114,7 @@ def value(now: Now, solved: Solved, name: str) -> Any:
     return asked(now, solved, name, {})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CLAIMS)
 def test_what_follows_from_a_state_is_the_same(name: str) -> None:
     case, told = both.reread(name), both.stored(name)

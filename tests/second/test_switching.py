@@ -55,6 +55,7 @@ def unlike(motion: Motion, name: str) -> dict[str, object]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", unhurried(SWITCHING, SHORT))
 def test_a_case_that_switches_moves_the_same(name: str) -> None:
     case = both.reread(name)

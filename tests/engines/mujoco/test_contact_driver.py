@@ -32,6 +32,7 @@ def off(name: str) -> float:
     return float(np.max(np.abs(run.states["block"] - exact)[:, X]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CONES)
 def test_a_block_leaves_the_friction_cone(name: str) -> None:
     """Where its normal force changes, too: measured 1e-13 m."""

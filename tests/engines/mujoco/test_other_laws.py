@@ -49,6 +49,7 @@ def started(text: str) -> tuple[Any, Any]:
     return model, mujoco.MjData(model)
 
 
+@pytest.mark.slow
 def test_its_muscle() -> None:
     case, motion = scenes.SHIPPED["muscle_load"], scenes.solved("muscle_load").trajectory
     known = motion.states["load"][:, 1]

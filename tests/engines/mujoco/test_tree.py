@@ -15,6 +15,7 @@ from textmech.engines.mujoco.model.tree import spanning_tree
 from textmech.engines.mujoco.read.record import all_steps
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_a_tree_has_no_loop_and_a_chain_has_one(seed: int) -> None:
     for build in (tree(seed), tree(seed, driven=True), chain(seed)):

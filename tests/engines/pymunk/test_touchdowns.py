@@ -176,6 +176,7 @@ def slips(monkeypatch: Patch) -> float:
     return float(np.median(seen))
 
 
+@pytest.mark.slow
 def test_a_tip_that_stands_slips_as_fast_the_other_way(monkeypatch: Patch) -> None:
     """Reflected: to first order its path is then that of a pin."""
     assert slips(monkeypatch) < 1e-9

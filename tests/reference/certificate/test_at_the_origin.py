@@ -26,6 +26,7 @@ allow: {rod.z: 1.0}
 """
 
 
+@pytest.mark.slow
 def test_a_body_that_rests_at_the_origin_has_a_size(tmp_path: Path) -> None:
     """Its place is no length, but what holds it could have power over that of its points."""
     solution = solve(typed(tmp_path, RESTS))
@@ -50,6 +51,7 @@ allow: {q1.angle: 1.0, q2.angle: 1.0}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", ["1.0e3", "1.0e4", "1.0e5", "1.0e6"])
 def test_heavy_on_light_is_certified_as_far_as_rounding_lets(mass: str, tmp_path: Path) -> None:
     solution = solve(typed(tmp_path, HEAVY.replace("MASS", mass), tail=""))

@@ -93,6 +93,7 @@ def about_the_origin_with_M_c(s: System) -> float:
     return s.law(s.D(0.0, 0.0), s.moment(s.centre))
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{wrong}")
 @pytest.mark.parametrize("wrong", [absolute, uncorrected, about_the_origin_with_M_c])
 def test_another_law_does_not_hold(wrong: Callable[[System], float], in_the_plane: System):

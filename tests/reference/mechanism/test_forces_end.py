@@ -34,6 +34,7 @@ def pressed(folder: Path, start: float, stiffness: float, until: float) -> float
     return float(observe(case.scene, solution.trajectory, "s.torque")[-1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [1.1843525281307231, 0.7])
 @pytest.mark.parametrize("start", [0.0, 0.5])
 def test_what_is_pressed_on_a_stop_stays_when_the_push_ends(
@@ -44,6 +45,7 @@ def test_what_is_pressed_on_a_stop_stays_when_the_push_ends(
     assert pressed(tmp_path, start, stiffness, 2.0) == pytest.approx(4.0, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("rounding as small as what is left of forces that have ended")
 def test_rounding_of_what_is_left_is_seen(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(Modes, "_usual", 0.0)

@@ -168,6 +168,7 @@ def flat(folder: Path, what: str, e: float, mu: float, *, swapped: bool) -> tupl
     return tuple(float(x) for x in solution.trajectory.states["b"][-1, VX:])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize("mu", [0.0, 0.3])
 @pytest.mark.parametrize("what", FALLS)
@@ -208,6 +209,7 @@ allow: {bob.y: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("swapped", [False, True])
 def test_two_ropes_that_come_taut_at_one_instant_hold_it_on_their_axis(
     tmp_path: Path, *, swapped: bool

@@ -160,6 +160,7 @@ def phases(tmp_path: Path, ends: list[str]) -> list[tuple[float, dict[str, str]]
     ]
 
 
+@pytest.mark.slow
 def test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path: Path):
     """Both stop at one instant: none goes on to rub at rest, and rubs as nothing says how."""
     one, other = phases(tmp_path, ENDS), phases(tmp_path, ENDS[::-1])
@@ -168,6 +169,7 @@ def test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path: P
     assert one[0][1] == {"foot": "sticks", "top": "sticks"}
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what stops at the instant of another goes on to slide, at rest")
 def test_one_end_of_a_ladder_rests_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(PlanarMechanism, "_stops_too", lambda *_: None)

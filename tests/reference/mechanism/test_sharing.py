@@ -137,6 +137,7 @@ def test_what_is_not_at_its_bound_stays(tmp_path: Path):
     assert changes(case) == [(pytest.approx(G / 100, abs=1e-12), mode)]
 
 
+@pytest.mark.slow
 def test_very_many_contacts_are_refused_at_once(tmp_path: Path):
     """4⁹ ways to stick, slide and open, of 2 ms each: 9 minutes, and 4¹² 9 hours."""
     for count in (9, 12):

@@ -228,6 +228,7 @@ AGAIN = {  # a scene, mass, friction, a sine's amplitude, frequency and phase, t
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", AGAIN)
 def test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path: Path, name: str):
     """A sine just above friction: each half of its period has the slip of the one before."""

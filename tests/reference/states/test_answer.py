@@ -43,6 +43,7 @@ def apart(case: Case) -> float:
     return next(c.difference for c in answered(case)[1] if c.name == "generated states")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", scenes.CLAIMS)
 def test_shipped_claims_hold(name: str) -> None:
     solution = scenes.solved(name)

@@ -34,6 +34,7 @@ def test_by_hand_from_its_dissipation_and_as_observed() -> None:
         assert observe(CASE.scene, bare, name) == pytest.approx(told, abs=1e-12 * np.ptp(told))
 
 
+@pytest.mark.slow
 def test_friction_takes_energy_and_of_an_edge_not_only_against_the_velocity() -> None:
     """Dry, the ball's always has its size μ F_N; the sled's is between F₊ and that of a slip."""
     found, _ = answered(CASE)
@@ -85,6 +86,7 @@ PLANTED: dict[str, tuple[Any, str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("sliding points: {planted}")
 @pytest.mark.parametrize("planted", PLANTED)
 def test_a_planted_mistake_is_seen(planted: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -94,6 +96,7 @@ def test_a_planted_mistake_is_seen(planted: str, monkeypatch: pytest.MonkeyPatch
         assert apart() < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("sliding points: an observed edge 0.1 rad off")
 def test_an_observed_edge_that_does_not_turn_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     found, _ = answered(CASE)

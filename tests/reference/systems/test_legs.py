@@ -184,6 +184,7 @@ def test_the_running_gait_repeats_itself_and_is_stable() -> None:
     assert off == pytest.approx([0.159873] * 2, rel=2e-2)  # as steps tell it, not a difference
 
 
+@pytest.mark.slow
 def test_the_shipped_step_is_that_of_the_periodic_gait() -> None:
     """What touches down at the apex RUNS above takes off mirrored, and is there again."""
     case = scenes.SHIPPED["running_step"]

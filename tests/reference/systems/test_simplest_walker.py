@@ -100,6 +100,7 @@ def test_multipliers_are_those_of_the_variational_equations():
     assert np.sort_complex(values) == pytest.approx(np.sort_complex(found().multipliers), abs=1e-10)
 
 
+@pytest.mark.slow
 def test_length_only_sets_the_time():
     """θ̇ goes with √(g/l)."""
     l = 0.4

@@ -98,6 +98,7 @@ def share(within: int, judged: int, module: Any = overview) -> int:
     return found["percent"]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("99.6 % is shown as all")
 def test_only_all_is_a_hundred_percent() -> None:
     assert [share(n, 250) for n in (249, 250, 0)] == [99, 100, 0]

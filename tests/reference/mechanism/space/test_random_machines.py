@@ -50,6 +50,7 @@ def test_chaplygin_never_applies(kind: str) -> None:
     assert chaplygin.accelerations(made.mode, T, made.q, made.v()) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", MAKES)
 def test_every_force_that_can_be_asked_for_is_told(kind: str) -> None:
     """Also what drives a slide, a hinge and a named freedom."""

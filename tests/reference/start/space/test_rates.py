@@ -181,6 +181,7 @@ def loop(folder: Path, velocity: str, given: str, joints: tuple[str, ...]) -> Ar
     return assemble_in_space(case, case.scene)[1]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("joints' rates that are left, 0 one by one in the order of the file")
 @pytest.mark.parametrize("joints", [LINKS, LINKS[::-1]])
 def test_rates_that_cannot_all_be_zero_are_asked_for(
@@ -191,6 +192,7 @@ def test_rates_that_cannot_all_be_zero_are_asked_for(
         loop(tmp_path, "0.3, 0, 0.2", "", joints)
 
 
+@pytest.mark.slow
 def test_a_loop_moves_the_same_in_any_order_of_its_joints(tmp_path: Path) -> None:
     still = loop(tmp_path, "0, 0, 0", "", LINKS)
     assert not still.any()

@@ -20,6 +20,7 @@ from textmech.reports.batch.tasks import Pair
 HARD = {"integrator": "RK4", "connect": {"solimp": [0.9999, 0.9999, 0.001]}}
 
 
+@pytest.mark.slow
 def test_each_joint_is_once_the_last() -> None:
     (engine,) = choose_engines(["mujoco.shipped"], [])
     with passing() as store:

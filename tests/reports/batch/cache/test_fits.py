@@ -36,6 +36,7 @@ def test_a_whole_entry_of_another_kind_is_none(kind: Any, wrong: Any, kept: Stor
     assert kept.get(KEY, kind) is None or wrong in sound[kind]
 
 
+@pytest.mark.slow
 def test_what_it_holds_is_looked_at_too(kept: Store) -> None:
     """A solution whose checks are none, rows whose numbers are words."""
     solution = scenes.solved("bar_pendulum")

@@ -72,12 +72,14 @@ def test_beside_an_instant_the_error_elsewhere_is_told_too(tmp_path: Path) -> No
     assert of(settled, "touch.normal") < 10
 
 
+@pytest.mark.slow
 def test_what_diverges_has_no_errors(tmp_path: Path) -> None:
     asked = pair(tmp_path, "heavy_top.cusp", "mujoco")
     assert errors(Run(asked, Candidate.of({}, 2e-3))) == {}
     assert of({}, "tilt.angle") == inf
 
 
+@pytest.mark.slow
 def test_another_count_of_events_leaves_their_times_without_an_error(tmp_path: Path) -> None:
     """As shipped MuJoCo's disk bounces once, and not twice: which bounce would it be?"""
     asked = pair(tmp_path, "bouncing_disk.elastic", "mujoco")

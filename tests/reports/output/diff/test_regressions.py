@@ -57,6 +57,7 @@ def test_a_row_is_judged_by_what_the_new_run_allows(tmp_path: Path) -> None:
     assert (change.kind, change.allowed) == (WORSE, ROW.allowed)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a cure with other options is the same")
 def test_a_cure_with_other_options_is_another(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
