@@ -45,7 +45,7 @@ class Mistake:
 
 
 class CaseError(Exception):
-    """Raised with all mistakes of a case file at once; its text shows the first of each file."""
+    """Raised with all mistakes of case files at once; its text shows SHOWN of each file."""
 
     def __init__(self, mistakes: Sequence[Mistake]) -> None:
         self.mistakes = sorted(set(mistakes))

@@ -1,4 +1,4 @@
-"""Forces for which engines have no element, in words: what they do at the points where they act.
+"""Forces for which engines have no element, as Python functions: what they do at their points.
 
 A law is made of its scene and its element once, and asked at every step or stage: with the time
 and with the state of each point, in the order of `Scene.ends`, it answers with the force there.
@@ -40,6 +40,8 @@ def _drag(scene: Scene, force: Drag) -> Law:
 
     def law(t: float, points: Sequence[Place]) -> Exerted:
         _, _, vx, vy, _ = points[0]
+        if vx == vy == 0.0:  # below 1 the power of the speed has no number there; the force is 0
+            return ((0.0, 0.0),)
         size = -d * (vx * vx + vy * vy) ** power
         return ((size * vx, size * vy),)
 

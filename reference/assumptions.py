@@ -149,7 +149,7 @@ def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             continue
         pushed = motion.reactions[f"{pair.name}.normal"] > 0
         times = list[float]()
-        for left in pair.left(motion_of(case.scene, motion)):
+        for left in pair.margins(motion_of(case.scene, motion)):
             times += motion.times[(left < 0) & pushed].tolist()
             for rows in smooth(motion, bends):
                 if np.all(left[rows] >= 0) and np.any(pushed[rows]):

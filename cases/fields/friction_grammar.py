@@ -1,7 +1,7 @@
 """Grammar of dry friction: coefficients of a contact, friction forces or moments of a joint.
 
-The models here are what a case file may write; from them the nouns of `friction` are made, which
-all of the project calculates with. A slide and a pin have the same keys in other units.
+The models here are what a case file may write; from them the classes of `friction` are made, with
+which all of the project calculates. A slide and a pin have the same keys in different units.
 """
 
 from collections.abc import Callable
@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, Tag, create_model
 
-from . import friction as noun
+from . import friction
 from .field import In
 from .part import Made, Part, plain_or_map
 from .words import wrong
@@ -24,7 +24,7 @@ class Coefficients(Part):
     kinetic: Coefficient
 
     def model_post_init(self, context: object) -> None:
-        _holds_as_well_as_it_brakes(self.static, self.kinetic)
+        _require_static_not_below_kinetic(self.static, self.kinetic)
 
 
 Friction = Annotated[
@@ -53,64 +53,72 @@ class DryFriction(Part):
     def model_post_init(self, context: object) -> None:
         if self.static is not None:
             for way in ("forward", "backward"):
-                _holds_as_well_as_it_brakes(getattr(self.static, way), getattr(self.kinetic, way))
+                _require_static_not_below_kinetic(
+                    getattr(self.static, way), getattr(self.kinetic, way)
+                )
         if self.stribeck is not None:
             if self.smooth is not None:
-                raise wrong("has both `smooth` and `stribeck`: (2.95) knows one kinetic friction")
+                raise wrong("has both `smooth` and `stribeck`: (2.95) has one kinetic friction")
             if self.static is None or self.static == self.kinetic:
                 raise wrong("`stribeck` needs a `static` friction above the kinetic: it falls")
 
-    def law(self) -> noun.DryFriction:
-        """Returns the noun: the static friction is the kinetic one where it is left out."""
-        return noun.DryFriction(
-            self.static or self.kinetic, self.kinetic, self.smooth, self.stribeck
+    def law(self) -> friction.DryFriction:
+        """Returns the law: the static friction is the kinetic one where it is left out."""
+        return friction.DryFriction(
+            self.kinetic if self.static is None else self.static,
+            self.kinetic,
+            self.smooth,
+            self.stribeck,
         )
 
 
-def dry(force: str, speed: str, slowness: str, of: str) -> Any:
+def dry(force: str, speed: str, slowness: str, suffix: str) -> Any:
     """Returns the type of a field that holds the dry friction of a joint, in these units.
 
     force: the unit of what it exerts; speed: of how fast it slips; slowness: of one over that, as
-    the sharpness of the smooth law has it; of: what the models' names end with.
+    the sharpness of the smooth law has it; suffix: what the models' names end with.
     """
-    swift, sharp = Annotated[float, In(speed, above=0)], Annotated[float, In(slowness, above=0)]
-    bounds = _bounds(force, of)
+    Speed, Sharpness = (Annotated[float, In(unit, above=0)] for unit in (speed, slowness))
+    bounds = _bounds(force, suffix)
     fields: dict[str, Any] = {
         "static": (bounds | None, DryFriction.model_fields["static"]),
         "kinetic": (bounds, ...),
-        "smooth": (_map(noun.Smooth, of, band=swift, sharpness=sharp) | None, None),
-        "stribeck": (_map(noun.Stribeck, of, speed=swift) | None, None),
+        "smooth": (_map(friction.Smooth, suffix, band=Speed, sharpness=Sharpness) | None, None),
+        "stribeck": (_map(friction.Stribeck, suffix, speed=Speed) | None, None),
     }
-    name = f"DryFriction{of}"
-    written = create_model(name, __base__=DryFriction, __doc__=noun.DryFriction.__doc__, **fields)
-    return Annotated[noun.DryFriction, Made(written, DryFriction.law)]
+    name = f"DryFriction{suffix}"
+    written = create_model(
+        name, __base__=DryFriction, __doc__=friction.DryFriction.__doc__, **fields
+    )
+    return Annotated[friction.DryFriction, Made(written, DryFriction.law)]
 
 
-def _bounds(force: str, of: str) -> Any:
+def _bounds(force: str, suffix: str) -> Any:
     """Returns the type of the bounds forward and backward, in this unit; one number gives both."""
     size = Annotated[float, In(force, least=0)]
-    both = _map(noun.Bounds, of, forward=size, backward=size)
+    both = _map(friction.Bounds, suffix, forward=size, backward=size)
     return Annotated[
-        Annotated[noun.Bounds, Made(size, lambda f: noun.Bounds(f, f)), Tag("<plain>")]
+        Annotated[friction.Bounds, Made(size, lambda f: friction.Bounds(f, f)), Tag("<plain>")]
         | Annotated[both, Tag("<map>")],
         plain_or_map(),
     ]
 
 
-def _map(law: Callable[..., object], of: str, **units: Any) -> Any:
-    """Returns the type of a noun that is written as a map of its numbers, each in its unit."""
+def _map(law: Callable[..., object], suffix: str, **units: Any) -> Any:
+    """Returns the type of what is written as a map of its numbers, each in its unit."""
     fields: dict[str, Any] = {key: (unit, ...) for key, unit in units.items()}
-    written = create_model(f"{law.__name__}{of}", __base__=Part, __doc__=law.__doc__, **fields)
-    return Annotated[law, Made(written, lambda written: law(**dict(written)))]
+    written = create_model(f"{law.__name__}{suffix}", __base__=Part, __doc__=law.__doc__, **fields)
+    return Annotated[law, Made(written, lambda numbers: law(**dict(numbers)))]
 
 
-# Annotations for the fields of the models: of a slide, a pin, and a drag without `static`.
+# Annotated types of the dry friction of a slide and of a pin, and the mark of a field that holds
+# the coefficients d₊ and d₋ of a viscous force, whose power of the speed is no dry friction.
 OF_SLIDE = dry("N", "m/s", "s/m", "OfSlide")
 OF_PIN = dry("N m", "rad/s", "s/rad", "OfPin")
-FrictionForce = Made(_bounds("N", "OfGuide"), lambda bounds: bounds)
+VISCOUS = Made(_bounds("N", "OfGuide"), lambda bounds: bounds)
 
 
-def _holds_as_well_as_it_brakes(static: float, kinetic: float) -> None:
+def _require_static_not_below_kinetic(static: float, kinetic: float) -> None:
     """Raises a mistake if the static friction is less than the kinetic one."""
     if kinetic > static:  # with a force between them it could neither stay at rest nor slide
         raise wrong(f"kinetic friction {kinetic:g} is above static friction {static:g}")

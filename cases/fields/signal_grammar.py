@@ -35,9 +35,9 @@ class InTime:
 
 
 class Numbers(Part):
-    """Base of the laws that have several numbers; to each `keys` adds how large it is.
+    """Base of the laws that have several numbers; `keys` adds to each the field for its size.
 
-    That is its amplitude, or of a law with values of its own the unit vector `along`.
+    It is `amplitude`, or the unit vector `along` of a law that has values of its own.
     """
 
     def noun(self) -> dict[str, Any]:
@@ -46,7 +46,7 @@ class Numbers(Part):
 
 
 class Sine(Numbers):
-    """How fast it swings, and where it begins; what it is for adds how far."""
+    """How fast it swings and where it begins; `keys` adds the amplitude."""
 
     angular_frequency: Annotated[float, In("rad/s", above=0)]
     phase: Angle = 0.0
@@ -69,7 +69,7 @@ class Pulse(Numbers):
 
     def model_post_init(self, context: object) -> None:
         if not self.begins < self.until:
-            raise wrong(f"`until` should be later than `from`, {self.begins:g}, is {self.until:g}")
+            raise wrong(f"`until` ({self.until:g}) should be later than `from` ({self.begins:g})")
 
     @property
     def begins(self) -> float:
@@ -98,7 +98,7 @@ class Table(Numbers):
 
     def model_post_init(self, context: object) -> None:
         if len(self.times) < 2:
-            raise wrong(f"`times` should be at least 2, are {len(self.times)}")
+            raise wrong(f"needs at least 2 `times`, has {len(self.times)}")
         if len(self.times) != len(self.values):
             raise wrong(f"has {len(self.times)} times and {len(self.values)} values")
         for before, after in pairwise(self.times):
@@ -161,7 +161,7 @@ class Prescribed(Following):
     laws: ClassVar[tuple[Word, ...]] = tuple(law for law in LAWS if law not in JUMPS)
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
     elsewhere = dict.fromkeys(
-        JUMPS, "a velocity that jumps is a blow; a `table` climbs in a time of its own"
+        JUMPS, "a velocity that jumps is a blow; a `table` climbs in a time that you choose"
     )
 
 

@@ -124,22 +124,28 @@ class Pair:
         """(N,) the `gap` [m] or the `slip` [m/s] along a motion; of any other field KeyError."""
         if field not in ("gap", "slip"):
             raise KeyError(f"{self.name}.{field}")
-        return self.normal(motion)[1] if field == "gap" else self.moves(motion)[0]
+        return (
+            self.normal_and_gap(motion)[1] if field == "gap" else self.slip_and_gap_rate(motion)[0]
+        )
 
     def place(self, motion: Motion) -> Array:
         """(N, 2) where it touches [m], in ground axes; while open, its point that is nearest."""
         touching: Array = motion.point(self.at)[:, :2]
-        return touching - self.radius(motion.bodies) * self.normal(motion)[0]
+        return touching - self.radius(motion.bodies) * self.normal_and_gap(motion)[0]
 
-    def moves(self, motion: Motion) -> tuple[Array, Array]:
+    def slip_and_gap_rate(self, motion: Motion) -> tuple[Array, Array]:
         """(N,) each: how fast [m/s] it slips along the tangent, and how fast the gap grows."""
-        normal, place, states = self.normal(motion)[0], self.place(motion), motion.trajectory.states
+        normal, place, states = (
+            self.normal_and_gap(motion)[0],
+            self.place(motion),
+            motion.trajectory.states,
+        )
         moves = _moves(states[self.body], place) - _moves(states[self.touched], place)
-        # The tangent is (n_y, −n_x), which has the normal to its left.
+        # The tangent is (n_y, −n_x): the normal turned by −90°.
         slip = moves[:, 0] * normal[:, 1] - moves[:, 1] * normal[:, 0]
         return slip, np.sum(moves * normal, axis=1)
 
-    def normal(self, motion: Motion) -> tuple[Array, Array]:
+    def normal_and_gap(self, motion: Motion) -> tuple[Array, Array]:
         """(N, 2) the unit normal in ground axes, to what touches, and (N,) the gap [m]."""
         place = motion.point(self.at)[:, :2]
         if self.face is None:
@@ -155,12 +161,12 @@ class Pair:
 
     def beyond(self, motion: Motion) -> NDArray[np.bool_]:
         """(N,) whether the touching point or centre is past an end of the face, along its line."""
-        return np.minimum(*self.left(motion)) < 0
+        return np.minimum(*self.margins(motion)) < 0
 
-    def left(self, motion: Motion) -> tuple[Array, Array]:
-        """(N,) what the face still has on both sides of the touching point or centre, of itself.
+    def margins(self, motion: Motion) -> tuple[Array, Array]:
+        """(N,) each: from the two ends of the face to what touches, as shares of its length.
 
-        Negative where that is past an end.
+        Negative where it is past an end.
         """
         one, two = (motion.point(Anchor(self.touched, end))[:, :2] for end in self.side.ends)
         along = two - one

@@ -47,7 +47,7 @@ def _around(times: Array, middle: float) -> slice:
 def _between(times: Array, values: Array, begin: float, end: float) -> float:
     """The area from `begin` to `end` under the polynomial through all rows."""
     middle, half = (begin + end) / 2, (end - begin) / 2
-    size = max(half, float(np.ptp(times)))  # scaled: a power of a small time is none
+    size = max(half, float(np.ptp(times)))  # scaled: high powers of a small time would underflow
     degrees = np.arange(len(times))
     powers = ((times - middle) / size)[:, None] ** degrees
     each = (1 - (-1.0) ** (degrees + 1)) / (degrees + 1) * (half / size) ** (degrees + 1)
@@ -62,7 +62,7 @@ def _between(times: Array, values: Array, begin: float, end: float) -> float:
 
 
 AROUND = 6  # samples in a polynomial: of fifth degree
-NEAR = 0.1  # of two samples' distance, or a piece's: a corner nearer to a sample tells little
+NEAR = 0.1  # of two samples' distance, or a piece's: a corner nearer to a sample gets no row
 ROUNDED = 1e-14  # of the motion: two times nearer than this are one instant
 GENTLE = 10.0  # distances of two samples in which what moves may change much: it is well sampled
 
@@ -71,8 +71,9 @@ GENTLE = 10.0  # distances of two samples in which what moves may change much: i
 class Piece:
     """The part of a motion between two corners, or one of them and the first or last sample.
 
-    motion: the samples in it, and its ends where no sample is near; at its later end as it is just
-    before. own: which of all samples are in it; the one on its later end is the next piece's.
+    motion: the samples in it, and a row at each end that no sample is near; that at its later end
+    is of just before. own: which of all samples are in it; one on its later end is the next
+    piece's.
     """
 
     begin: float
@@ -126,7 +127,7 @@ def _apart(times: Array, corner: float, part: slice, length: float) -> bool:
 
 
 def _at(motion: Trajectory, t: float, beside: tuple[slice, slice], part: slice) -> Trajectory:
-    """One row, at a corner: of `beside` whichever side tells more; what jumps as in the part."""
+    """One row, at a corner: states from the better sampled side, what jumps as in `part`."""
     rows = _side(motion.times, t, beside)
     given = _nearest(motion.times, t, part)
     if not len(given):
@@ -160,6 +161,7 @@ def _nearest(times: Array, t: float, part: slice) -> Any:
 
 
 def _within(times: Array, t: float) -> Any:
+    """The samples before and after a time."""
     i = min(max(int(np.searchsorted(times, t)), 1), len(times) - 1)
     return np.array([i - 1, i])
 

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Checked:
-    """A file's cases by name, its mistakes, and of which case's reference a check does not hold.
+    """A file's cases by name, its mistakes, and (case, check) of each check that does not hold.
 
-    otherwise: of which case the system is another scene's, in words.
+    otherwise: sentences, of cases whose hand-written system moves as another scene would.
     """
 
     file: str
@@ -37,7 +37,7 @@ class Checked:
 @as_json
 @allow_long
 def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
-    """All mistakes of case files, without running an engine."""
+    """All mistakes of case files, and checks of their references; no engine is run."""
     from ..batch.selection import choose_engines
     from ..show.document import write
     from ..system.pool import workers
@@ -135,4 +135,5 @@ def _document(one: Checked) -> dict[str, object]:
             {"case": case, "check": c.name, "difference": c.difference, "bound": c.bound}
             for case, c in one.broken
         ],
+        "because": [*dict.fromkeys(one.otherwise)],
     }

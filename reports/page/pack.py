@@ -1,9 +1,10 @@
-"""Numbers as letters: twelve bits each, two letters of an alphabet that no markup knows.
+"""Numbers as letters: twelve bits each, two letters that markup takes as they are.
 
 A picture has some hundred points across, so 4096 levels are more than it shows; as decimal digits
 the same curves would be three times as long.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,7 +15,7 @@ LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
 BASE = len(LETTERS)
 LEVELS = BASE**2
 HALF = LEVELS // 2
-DIGITS = 6  # of the ends of a range: more would be other digits on another machine
+DIGITS = 6  # of a step, and of where the levels begin: more would be other digits elsewhere
 DECADES = 9.0  # of an error below its largest: what is smaller is drawn as nothing
 
 Packed = tuple[float, float, str]
@@ -28,7 +29,8 @@ def packed(numbers: Array) -> Packed:
     """
     _finite(numbers)
     low, high = float(np.min(numbers)), float(np.max(numbers))
-    low, step = _few(low), _few((high - low) / (LEVELS - 1))
+    step = _few((high - low) / (LEVELS - 1))
+    low = _of_step(low, step)
     levels = np.zeros(len(numbers)) if step == 0.0 else np.round((numbers - low) / step)
     return low, step, _letters(levels)
 
@@ -40,9 +42,9 @@ def unpacked(found: Sequence[float | str]) -> Array:
 
 
 def packed_by_size(numbers: Array) -> Packed:
-    """Errors (N,), each to half a percent, however small it is beside the largest.
+    """Errors (N,), each to half a percent, down to 1e-9 of the largest; what is smaller becomes 0.
 
-    Level 0 is 0, level k < 2048 is largest 10^(−(k − 1) step), and from 2048 on the same below 0.
+    Level 0 is 0, level k < 2048 is largest 10^(−(k − 1) step); from 2048 on the same, negative.
     Raises ValueError of what is not finite.
     """
     _finite(numbers)
@@ -50,9 +52,9 @@ def packed_by_size(numbers: Array) -> Packed:
     largest, step = _few(float(np.max(sizes, initial=0.0))), _few(DECADES / (HALF - 2))
     if largest == 0.0:
         return 0.0, step, _letters(np.zeros(len(numbers)))
-    told = sizes > largest * 10**-DECADES
-    down = np.round(-np.log10(np.where(told, sizes, largest) / largest) / step)
-    levels: Array = np.where(told, np.clip(down, 0, HALF - 2) + 1, 0.0)
+    kept = sizes > largest * 10**-DECADES
+    down = np.round(-np.log10(np.where(kept, sizes, largest) / largest) / step)
+    levels: Array = np.where(kept, np.clip(down, 0, HALF - 2) + 1, 0.0)
     return largest, step, _letters(np.where(numbers < 0, levels + HALF, levels))
 
 
@@ -77,6 +79,14 @@ def _letters(levels: Array) -> str:
 def _levels(letters: str) -> Array:
     places = np.array([LETTERS.index(letter) for letter in letters], dtype=np.float64)
     return places[0::2] * BASE + places[1::2]
+
+
+def _of_step(low: float, step: float) -> float:
+    """The number to DIGITS, and beside a narrow range to a hundredth of a step at least."""
+    few = _few(low)
+    if abs(few - low) <= step / 100 or step == 0.0:
+        return few
+    return round(low, 2 - math.floor(math.log10(step)))
 
 
 def _few(number: float) -> float:

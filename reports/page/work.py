@@ -7,7 +7,7 @@ from ..data.row import Comparison, StepError
 from .column import Column, column
 
 SHOWN = ("pins", "loops", "springs", "rolling", "friction", "impacts", "space")
-PRECISIONS = (1.0, 1e-2)  # parts of what is allowed: one is chosen
+PRECISIONS = (1.0, 1e-2)  # parts of what is allowed: the reader chooses one
 ANY = "any way"  # native, or with a law or a driver of ours: whichever takes the larger step
 LEAST, MOST = 10.0, 1e5  # steps per second that are shown
 
@@ -37,9 +37,9 @@ def work(
 
 
 def worst(rows: Iterable[Comparison], steps: Iterable[StepError]) -> Steps:
-    """Returns the worst error over allowed at each step [s] of each case's first ladder.
+    """Returns the worst error over allowed at each step [s] of one ladder a case and column.
 
-    There tuned numbers follow the step, where any are tied to it.
+    It is the one whose tuned numbers follow the step, or else the one where they are held.
     """
     allowed = {(row.case, column(row), row.quantity): row.allowed for row in rows}
     found: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
@@ -91,5 +91,5 @@ def profile(
             steps.append(1 / max(found))
     corners = sorted(set(steps))
     shares = [100 * sum(step <= x for step in steps) / len(cases) for x in corners]
-    corners = [float(f"{x:.4g}") for x in corners]
+    corners = [min(max(float(f"{x:.4g}"), LEAST), MOST) for x in corners]
     return [LEAST, *corners, MOST], [0.0, *(round(s, 1) for s in [*shares, max(shares, default=0)])]

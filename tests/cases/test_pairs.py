@@ -88,7 +88,7 @@ def test_a_side_that_turns_is_observed(tmp_path: Path) -> None:
     assert slip == pytest.approx(0.7 + 3.0 - (0.5 - 2.4))
     parts = scene.pairs["lies"]
 
-    growth = parts.moves(motion_of(scene, motion))[1]
+    growth = parts.slip_and_gap_rate(motion_of(scene, motion))[1]
     # apart along −x: −0.4 of the disk, and the box there moves with −2·0.3 along x
     assert growth == pytest.approx([-0.4 - 2 * 0.3])
 

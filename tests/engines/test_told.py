@@ -48,6 +48,24 @@ def test_typed_values(row: dict[str, Any], known: tuple[Case, Trajectory, Start]
     np.testing.assert_allclose(found, row["forces"], rtol=1e-12, atol=1e-15)
 
 
+@pytest.mark.mutant("a power of no speed below 1, in an engine")
+def test_a_drag_below_one_is_nothing_at_rest(tmp_path: Path) -> None:
+    """(2.86) d |v|^α ends at 0 with v, though |v|^(α − 1) has no number there."""
+    text = """\
+scene:
+  bodies: {ball: {particle: {mass: 1.0}}}
+  forces: {air: {drag: ball.center, coefficient: 0.5, exponent: 0.5}}
+initial: {ball: {x: 0, y: 0}}
+allow: {ball.y: 1.0e-2}
+"""
+    case = scenes.typed(tmp_path, text, tail=END)
+    motion = solve(case).trajectory
+    for engine in TUNED.values():
+        start: Start = {"ball": tuple(motion.states["ball"][0].tolist())}  # type: ignore[dict-item]
+        found = moved(engine, case.scene, start, case.times, 1e-3, realised="law")
+        assert found.states["ball"][:, 1] == pytest.approx(motion.states["ball"][:, 1], abs=1e-3)
+
+
 @pytest.mark.parametrize("row", TABLE["living"], ids=str)
 def test_typed_values_of_what_has_a_state(row: dict[str, Any]) -> None:
     """F₀ = 60 N, c_s = 300 N/m, c_p = 100 N/m from 0.15 m, between (1, 2) and (1.4, 2.3)."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...fields.field import In
 from ...fields.friction import Bounds
-from ...fields.friction_grammar import FrictionForce
+from ...fields.friction_grammar import VISCOUS
 from ...fields.kind import Fields
 from ...fields.part import Direction
 from ...trajectory import ANGLE, Array
@@ -117,7 +117,7 @@ class Viscous(Force):
     word = "viscous"
     freedom = "shift"
     joint: str  # the slide along which it acts
-    coefficient: Annotated[Bounds, FrictionForce]  # d₊ and d₋, N
+    coefficient: Annotated[Bounds, VISCOUS]  # d₊ and d₋, N
     exponent: Annotated[float, In("1", above=0)]  # α
 
     def refers(self) -> tuple[Anchor, ...]:

@@ -1,8 +1,9 @@
-"""Edges, which MuJoCo has no constraint for: their forces by our law at every RK4 stage.
+"""Edges, blades that do not slip sideways: their forces by our law at every RK4 stage.
 
-Without the edges MuJoCo would accelerate by a₀ = M⁻¹ (all forces). A point's velocity along a
-direction w is A v, with A of the point's Jacobian; it changes by A v̇ + w·J̇v + ẇ·v_P, and that has
-to be ṡ. So the edges' forces are λ = (A M⁻¹ Aᵀ)⁻¹ (ṡ − A a₀ − w·J̇v − ẇ·v_P), each at its point
+MuJoCo has no such constraint. Without the edges it would accelerate by a₀ = M⁻¹ (all forces). A
+point's velocity along a direction w is A v, A = wᵀJ with the point's Jacobian J; it changes by
+A v̇ + w·J̇v + ẇ·v_P, and that has to be ṡ, the rate of the speed that is prescribed along w (0 where
+none is). So the edges' forces are λ = (A M⁻¹ Aᵀ)⁻¹ (ṡ − A a₀ − w·J̇v − ẇ·v_P), each at its point
 along w.
 """
 

@@ -161,7 +161,7 @@ class OnBody:
     def rows(self) -> Array:
         """(2, nv): how it slips on the other body, and moves away from it."""
         motion = self._motion([0.0])
-        (x, y), (nx, ny) = self._pair.place(motion)[0], self._pair.normal(motion)[0][0]
+        (x, y), (nx, ny) = self._pair.place(motion)[0], self._pair.normal_and_gap(motion)[0][0]
         place = np.array([x, y, 0.0])
         each = np.zeros((2, 3, self._model.nv))
         for found, body in zip(each, self._bodies.values(), strict=True):

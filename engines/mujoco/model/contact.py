@@ -116,7 +116,7 @@ def meet(scene: Scene, pair: Pair, start: Start) -> bool:
     """Whether two bodies start in contact, and are not about to part."""
     motion = begun(scene, start)
     still = CLOSED * (max(math.hypot(*start[name][3:5]) for name in scene.bodies) or 1.0)
-    gap, parting = pair.normal(motion)[1][0], pair.moves(motion)[1][0]
+    gap, parting = pair.normal_and_gap(motion)[1][0], pair.slip_and_gap_rate(motion)[1][0]
     return bool(gap <= CLOSED and parting <= still)
 
 

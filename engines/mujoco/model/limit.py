@@ -56,7 +56,7 @@ def recipe() -> list[Choice]:
         Choice(
             "flag.diagexact",
             "enable",
-            "or k and b are those of a mean inertia at the file's own pose, not at the rope's",
+            "else k and b go by a mean inertia at the file's own pose, not where it is taut",
         ),
     ]
 

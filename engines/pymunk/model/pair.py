@@ -128,7 +128,7 @@ def closed_pairs(scene: Scene, start: Start) -> list[Pair]:
     motion = begun(scene, start)
     found = []
     for pair in scene.pairs.values():
-        gap, parting = pair.normal(motion)[1][0], pair.moves(motion)[1][0]
+        gap, parting = pair.normal_and_gap(motion)[1][0], pair.slip_and_gap_rate(motion)[1][0]
         fastest = max(math.hypot(*start[name][3:5]) for name in (pair.body, pair.touched))
         if abs(gap) <= TOUCHING and parting <= TOUCHING * fastest:
             found.append(pair)

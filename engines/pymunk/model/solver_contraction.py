@@ -85,7 +85,7 @@ def _parting(world: World, pair: Pair, columns: Columns, n: int) -> Array:
         for name in (pair.body, pair.touched)
     }
     motion = Motion(world.scene.bodies, {}, Trajectory(np.zeros(1), states, {}))
-    (x, y), (nx, ny) = pair.place(motion)[0].tolist(), pair.normal(motion)[0][0].tolist()
+    (x, y), (nx, ny) = pair.place(motion)[0].tolist(), pair.normal_and_gap(motion)[0][0].tolist()
     moves = _moves(columns, n, body, Vec2d(x, y) - body.position)
     moves -= _moves(columns, n, other, Vec2d(x, y) - other.position)
     return np.array([ny * moves[0] - nx * moves[1], nx * moves[0] + ny * moves[1]])

@@ -1,8 +1,8 @@
-"""Globe in a gimbal whose two axes are skew, on torsion springs, damped and driven.
+"""Globe in a gimbal whose two axes are oblique, on torsion springs, damped and driven.
 
 q = (θ, φ): θ about n₁ = e_z, which stands still, φ about n₂, which θ turns and which lies in the
 globe. A globe has the same moment of inertia J about all axes, so that with n₁·n₂ = κ its two
-turns are coupled oscillators, however large they are.
+turns are coupled linear oscillators at any amplitude.
 """
 
 import math
@@ -76,7 +76,9 @@ class SprungGimbal(Mode):
         return np.array([(one - self.kappa * two) / J, (two - self.kappa * one) / J])
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
-        """(2.23) F = (0, 0, m g) [N]; (2.27) M = J (θ̈ n₁ + φ̈ n₂ + θ̇ φ̇ n₁ × n₂) [N m], all of it."""
+        """(2.23) F = (0, 0, m g) [N]; (2.27) M = J (θ̈ n₁ + φ̈ n₂ + θ̇ φ̇ n₁ × n₂) [N m], with what
+        springs, dampers and the motor exert.
+        """
         a, n2 = self.accelerations(t, q, v), self._second(q)
         turning = v[0] * v[1]
         return {
@@ -93,9 +95,9 @@ class SprungGimbal(Mode):
         return self.sine * np.cos(q[0]), self.sine * np.sin(q[0]), self.kappa
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
-        """(2.44) q = q₀ + Im (A e^{iΩt}) + V e^{Λt} V⁻¹ (…): of S, ẏ = S y, values Λ and vectors V.
+        """(2.44) q = q₀ + Im (A e^{iΩt}) + V e^{Λt} V⁻¹ (…), Λ and V of S in ẏ = S y.
 
-        A (C + iΩ D − Ω² J) = (M, 0), with the matrices of inertia, damping and stiffness.
+        (C + iΩ D − Ω² J) A = (M, 0), with the matrices of inertia, damping and stiffness.
         """
         kappa = self.b / math.sqrt(self.a**2 + self.b**2)
         J = 0.4 * self.m * self.R**2 * np.array([[1.0, kappa], [kappa, 1.0]])

@@ -1,9 +1,9 @@
 """Compass walker down a slope: two equal legs pinned at a hip with a mass, on points for feet.
 
-q = (x, a, b): the place of the standing foot, and the left and the right leg, from foot to hip,
-against the normal of the slope, clockwise: a leg that leans forward, down the slope, has a > 0.
-Midway a swinging leg passes through the floor; it strikes in front, where a + b = 0, and the foot
-behind leaves without impulse.  In the figure's place (2.12) the legs are slender bars.
+q = (x, a, b): the place of the standing foot, and the angles of the left and the right leg, from
+foot to hip, against the normal of the slope, clockwise: a leg that leans forward, down the slope,
+has a > 0. Midway a swinging leg passes through the floor; it strikes in front, where a + b = 0, and
+the foot behind leaves without impulse. In the figure's place (2.12) the legs are slender bars.
 """
 
 import math
@@ -18,6 +18,8 @@ from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 G = 9.80665  # m/s²
 LEGS = ("left", "right")
 PASSES = 1e-3  # rad: nearer to each other, the legs are passing, and the floor is not met
+LIFTED = math.pi / PASSES  # enough for any angles: behind the other, no foot strikes
+APART = 1e-6  # rad: two feet on the floor lean alike, but for rounding
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,7 @@ class _Stance(Mode):
 
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = Σ m g (y cos γ − x sin γ) [J]."""
-        p, places = self.walker, self._places(q, q)
+        p, places = self.walker, self._places(q, q)  # of which the rates are not used
         sin, cos = math.sin(p.gamma), math.cos(p.gamma)
         masses = (p.m, p.m, p.M)
         high = (m * (y * cos - x * sin) for m, (x, y, *_) in zip(masses, places, strict=True))
@@ -97,7 +99,7 @@ class _Stance(Mode):
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) m r̈_c = m g + F [N]: of the floor on the foot that stands, of each leg on the hip.
 
-        A metre up a leg has the acceleration (ä cos a − ȧ² sin a, −ä sin a − ȧ² cos a) more.
+        A metre further up a leg a point has in addition (ä cos a − ȧ² sin a, −ä sin a − ȧ² cos a).
         """
         p, legs = self.walker, (self._legs(q.tolist()), self._legs(v.tolist()))
         rates = self._legs(self.accelerations(t, q, v).tolist())
@@ -179,7 +181,7 @@ class CompassWalker(System):
 
     @property
     def J(self) -> float:
-        """(2.32) m l²/12 [kg m²] about it (Exercise 2.3)."""
+        """(2.32) m l²/12 [kg m²] about the leg's centre (Exercise 2.3)."""
         return self.m * self.l**2 / 12
 
     @property
@@ -203,17 +205,19 @@ class CompassWalker(System):
 
         def above(t: float, q: Array, v: Array) -> float:
             s, w = q[1 + k], q[2 - k]
-            return float(2 * max(0.0, PASSES - (s - w)) - (s + w))
+            return float(LIFTED * max(0.0, PASSES - (s - w)) - (s + w))
 
         return (Guard("strikes", above, lambda t, q, v: self.struck(k, q, v)),)
 
     def struck(self, k: int, q: Array, v: Array) -> tuple[str, Array, Array]:
         """(2.27) The other leg stands: moments of momentum about its foot, and of the old one about
-        the hip, stay. With the rates s, w of the legs that stand and swing, before and after,
-        (A − C) s⁺ + (B − C) w⁺ = H s⁻ + K w⁻ and B w⁺ − C s⁺ = K s⁻, where K = J − m c (l − c),
+        the hip, are conserved. With the rates ṡ, ẇ of the legs that stand and swing, before, after:
+        (A − C) ṡ⁺ + (B − C) ẇ⁺ = H ṡ⁻ + K ẇ⁻ and B ẇ⁺ − C ṡ⁺ = K ṡ⁻, where K = J − m c (l − c),
         H = M l² cos δ + m (l − c) (2 l cos δ − c) + J, C = m c l cos δ, δ the angle between them.
         """
         s, s_dot, w_dot = float(q[1 + k]), float(v[1 + k]), float(v[2 - k])
+        if abs(s + float(q[2 - k])) > APART:
+            raise ArithmeticError("the leg that stands leans forward where the other passes it")
         cos, r, A, B = math.cos(2 * s), self.l - self.c, self.about_foot, self.about_hip
         C, K = self.m * self.c * self.l * cos, self.J - self.m * self.c * r
         H = self.M * self.l**2 * cos + self.m * r * (2 * self.l * cos - self.c) + self.J

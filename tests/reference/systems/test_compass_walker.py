@@ -161,6 +161,18 @@ def test_between_strikes_it_is_the_mechanism_of_its_scene(tmp_path: Path):
         assert np.split(y, 2)[1] == pytest.approx(v, abs=1e-11)
 
 
+@pytest.mark.mutant("a foot that passes the other one behind it strikes")
+def test_no_foot_strikes_behind_the_other():
+    """However far forward the leg leans that stands: behind, the other is above the floor."""
+    (guard,) = WALKER.guards("left stands")
+    random = np.random.default_rng(2)
+    for s in random.uniform(-1.0, 1.0, 100).tolist():
+        w = random.uniform(s, 1.5)  # against the normal: its foot is behind
+        assert guard.g(0.0, np.array([0.0, s, w]), np.zeros(3)) > 0.0
+    with pytest.raises(ArithmeticError, match="leans forward where the other passes"):
+        WALKER.struck(0, np.array([0.0, 0.05, 0.049]), np.zeros(3))
+
+
 def test_what_cannot_walk_is_said():
     q = np.array([0.0, -0.2, 0.2])
     says = WALKER.possible("left stands", 0.0, q, np.array([0.0, 9.0, 0.0]))

@@ -38,6 +38,14 @@ def test_an_error_of_zero_stays_zero_and_what_is_next_to_nothing_becomes_it() ->
     assert found[3:] == pytest.approx([-1.0, 1e-8], rel=0.006)
 
 
+@pytest.mark.mutant("where levels begin by six digits, however narrow their range is")
+@pytest.mark.parametrize("share", [1e-3, 1e-5, 1e-7])
+def test_a_narrow_curve_far_from_zero_is_no_line(share: float) -> None:
+    curve = 1234.5671 * (1.0 + share * np.random.default_rng(3).uniform(size=77))
+    found = packed(curve)
+    assert np.max(np.abs(unpacked(found) - curve)) <= 0.52 * found[1]
+
+
 def test_what_stays_stays() -> None:
     assert unpacked(packed(np.full(4, 2.5))).tolist() == [2.5] * 4
 
