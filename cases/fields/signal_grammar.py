@@ -46,7 +46,7 @@ class Numbers(Part):
 
 
 class Sine(Numbers):
-    """How fast it swings and where it begins; `keys` adds the amplitude."""
+    """How far and how fast it swings, and where it begins."""
 
     angular_frequency: Annotated[float, In("rad/s", above=0)]
     phase: Angle = 0.0

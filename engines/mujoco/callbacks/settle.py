@@ -171,7 +171,7 @@ class OnBody:
 
     def acceleration(self) -> tuple[float, float]:
         """[m/s²] how its slip grows, and how fast the gap does ever more."""
-        slip, parting = self._pair.moves(self._motion([-_SOON, _SOON]))
+        slip, parting = self._pair.slip_and_gap_rate(self._motion([-_SOON, _SOON]))
         return float(np.diff(slip)[0]) / (2 * _SOON), float(np.diff(parting)[0]) / (2 * _SOON)
 
     def _motion(self, times: list[float]) -> Motion:

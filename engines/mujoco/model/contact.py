@@ -81,7 +81,8 @@ def falls(scene: Scene, start: Start) -> bool:
     """Whether something starts above its plane, of spokes all tips, or apart from the other."""
     if scene.frame is SPACE:
         return False  # what touches there does so from the start on
-    if any(pair.normal(begun(scene, start))[1][0] > CLOSED for pair in scene.pairs.values()):
+    motion = begun(scene, start)
+    if any(pair.normal_and_gap(motion)[1][0] > CLOSED for pair in scene.pairs.values()):
         return True
     return any(
         min(height(scene, point, start) for point in contact.each()) > CLOSED

@@ -205,7 +205,7 @@ def _rising(scene: Scene, contact: Any, trajectory: Trajectory) -> Array:
     """(N,) the velocity [m/s] of what touches, off its plane or off the other body."""
     motion = _motion(scene, trajectory)
     if contact.name in scene.pairs:
-        apart: Array = contact.moves(motion)[1]
+        apart: Array = contact.slip_and_gap_rate(motion)[1]
         return apart
     _, _, vx, vy = motion.point(contact.at).T  # of a rim that of the centre
     nx, ny = contact.plane.normal
