@@ -115,7 +115,7 @@ def _solved(case: Case) -> Island:
         check_premises(case, marched, found)
         if built.turns.missed is not None:
             raise unreached(case, *built.turns.missed)
-        checks = (*certify(case, answer, built, generated, motion), *opened)
+        checks = (*certify(case, answer, built, generated, motion, marched), *opened)
     return Island(case, motion, checks, generated.base)
 
 

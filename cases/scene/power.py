@@ -3,7 +3,7 @@
 Between two samples stands the polynomial through the six around them, on one side of all corners of
 laws in time: there a power may jump or bend. So the error falls as the sixth power of the samples'
 distance, where nothing else jumps, as friction and blows do. How large it is the reference says of
-itself: it compares with sums over fewer samples.
+itself: it integrates the power inside its own steps.
 """
 
 from collections.abc import Callable, Iterable, Iterator

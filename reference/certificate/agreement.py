@@ -51,10 +51,13 @@ def relative(a: Array, b: Array, *, least: float = 0.0) -> float:
     return worst(np.abs(a - b).ravel()) / (max(worst(np.abs(a).ravel()), least) or 1.0)
 
 
-def difference(one: Trajectory, other: Trajectory, inner: Iterable[str] = ()) -> float:
+def difference(
+    one: Trajectory, other: Trajectory, inner: Iterable[str] = (), *, far: float = 0.0
+) -> float:
     """Largest difference of places, angles, velocities and rates, each relative to its size.
 
-    inner: the inner states, which stand among the reactions, too.
+    inner: the inner states, which stand among the reactions, too. far: how far [m] from the origin
+    the motion gets, whatever its samples find.
 
     A mechanism at rest moves by rounding only, so sizes are not taken below what would carry it
     through its own size, or 1 rad, in the duration.
@@ -62,11 +65,11 @@ def difference(one: Trajectory, other: Trajectory, inner: Iterable[str] = ()) ->
     a, b = (np.concatenate([motion.states[name] for name in one.states]) for motion in (one, other))
     duration = float(one.times[-1] - one.times[0])
     frame = frame_of(a.shape[1])
-    size = worst(np.abs(a[:, frame.place]).ravel())
+    size = max(far, worst(np.abs(a[:, frame.place]).ravel()))
     if frame is SPACE:  # a quaternion and its opposite are the same attitude
         same = np.sum(a[:, frame.attitude] * b[:, frame.attitude], axis=1, keepdims=True) >= 0
         b[:, frame.attitude] *= np.where(same, 1.0, -1.0)
-    groups = [(frame.place, 0.0), (frame.attitude, 1.0)]
+    groups = [(frame.place, far), (frame.attitude, 1.0)]
     groups += [(frame.velocity, size / duration), (frame.spin, 1.0 / duration)]
     found = [relative(a[:, g], b[:, g], least=least) for g, least in groups]
     return worst([*found, *(relative(one.reactions[u], other.reactions[u]) for u in inner)])

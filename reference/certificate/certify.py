@@ -6,7 +6,7 @@ one answer may be little farther from the others than two integrators of one sys
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -14,7 +14,6 @@ from itertools import pairwise
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.fields.kind import WORK
 from ...cases.trajectory import Trajectory
 from ..coverage import look
 from ..integrators.implicit import Radau
@@ -24,6 +23,7 @@ from ..integrators.radau import radau_table
 from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Followed, either, follow
+from ..start.assembly import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
 from .errors import errors
@@ -31,11 +31,13 @@ from .event_time_error import untimed
 from .file_checks import as_the_file_says
 from .laws import laws
 from .reaction_check import reaction_checks
+from .work_error import work_errors
 
 OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
 ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
 SWITCHED = 1e-11  # of the motion's size: an event is known to 1e-12 s, and what follows with it
 GENERATED = 1e-9  # hand-written against generated motion
+NOISE = 1e-9  # of the size: places that are nearer to the origin are no motion, but its rounding
 OWN_EVENTS = 1e-12  # s, against known functions
 OTHER_EVENTS = 1e-10  # s, against another motion
 LOOSER = 100  # times what two integrators differ by: two samples of one error may differ so much
@@ -44,12 +46,6 @@ UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps i
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
 APART = 1e-9  # of two samples: a corner nearer to one is none between them
 QUARTERS = (0.0, 0.25, 0.5, 0.75)  # of a sample: longer steps, of order 13, lose up to two digits
-UNEVEN = (
-    0.0,
-    0.2113,
-    0.4867,
-    0.7591,
-)  # for sums: in step with no simple part of one
 
 
 def certify(
@@ -58,35 +54,36 @@ def certify(
     built: Answer,
     generated: Mechanism,
     motion: Trajectory,
+    marched: Trajectory,
 ) -> tuple[Check, ...]:
     """The results of every check that applies to the case.
 
-    written: the answer, and `motion` its bodies; built: the generated mechanism's. They are one
-    where there is no hand-written system.
+    written: the answer, and `motion` its bodies; built: the generated mechanism's, and `marched`
+    its bodies at every step. They are one where there is no hand-written system.
     """
     look()
     times, system, followed = case.times, written.system, written.followed
-    inner = case.scene.inner()
+    places = [states[:, case.scene.frame.place] for states in marched.states.values()]
+    far = worst(np.abs(each).max() for each in places)
+    far = far if far > NOISE * size_of(case) else 0.0  # what turns on the origin goes nowhere
+    compared = partial(difference, inner=case.scene.inner(), far=far)
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
-    known = case.quantities
-    sums = any(name in known and known[name].field in WORK for name in case.allow)
-    parts = UNEVEN if sums else QUARTERS
-    finer = finely(times, system.corners, whole=stiff and not sums, parts=parts)
+    finer = finely(times, system.corners, whole=stiff)
     name, closer = _second(system, finer, stiff=stiff)
     own = np.searchsorted(finer, times)
     second = replace(closer, y=closer.y[own], phase=closer.phase[own])
     others = {name: replace(written, followed=second).trajectory(times)}
-    apart = difference(motion, others[name], inner)
+    apart = compared(motion, others[name])
     checks, found = [], {f"{name}: events": second}
     if system is not generated:
         others["generated"], found["generated events"] = built.trajectory(times), built.followed
-        far = difference(motion, others["generated"], inner)
-        checks.append(Check("generated motion", far, max(GENERATED, _looser(apart))))
+        off = compared(motion, others["generated"])
+        checks.append(Check("generated motion", off, max(GENERATED, _looser(apart))))
         checks += reaction_checks(written, built, generated, times)
     own = max(_own(followed), _looser(apart))
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
-        checks.append(Check("closed form", difference(motion, others["closed form"], inner), own))
+        checks.append(Check("closed form", compared(motion, others["closed form"]), own))
     late = apart * float(times[-1] - times[0])
     alone = max(system.blurred, untimed(system, followed))
     apart = max(_looser(late), 2 * alone)  # either way, two answers
@@ -94,15 +91,14 @@ def certify(
     doing("the laws at every sample", float(times[0]), float(times[-1]))
     if written.turns.angles:
         checks.append(Check("turns by their rates", written.turns.unrolled(), UNROLLED))
-    checks += laws(written, generated, times)
+    checks += laws(written, generated, times, marched)
     checks += _drift(system, followed, own)
     checks += as_the_file_says(case, written, generated, motion, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, followed), 0.0))
     late = worst([late, alone, *(_apart(followed, other) for other in found.values())])
-    between = replace(written, followed=closer)
-    told, march = partial(between.trajectory, finer), partial(written.march, forces=True)
-    return (*checks, *errors(case, motion, others, late, told, march))
+    worked = partial(work_errors, case, motion, written)
+    return (*checks, *errors(case, motion, others, late, worked))
 
 
 def _looser(apart: float) -> float:
@@ -115,10 +111,10 @@ def _own(followed: Followed) -> float:
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 
-def finely(times: Array, corners: Iterable[float], *, whole: bool, parts: Sequence[float]) -> Array:
+def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
     """The samples with others between them, and on the corners and between these.
 
-    parts: where in an interval; whole: one without a corner stays whole.
+    whole: whether an interval without a corner stays whole.
     """
     least = APART * float(times[1] - times[0])
     edges = times
@@ -128,7 +124,7 @@ def finely(times: Array, corners: Iterable[float], *, whole: bool, parts: Sequen
     sampled = np.isin(edges, times)
     wholes = sampled[1:] & sampled[:-1] & whole
     gaps = [
-        a + (b - a) * np.array([0.0] if stays else parts)
+        a + (b - a) * np.array([0.0] if stays else QUARTERS)
         for (a, b), stays in zip(pairwise(edges), wholes, strict=True)
     ]
     return np.append(np.concatenate(gaps), times[-1])

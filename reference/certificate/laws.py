@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...cases.scene.frame import PLANE, SPACE
+from ...cases.trajectory import Trajectory
 from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
@@ -89,11 +89,16 @@ class Scale:
         )
 
 
-def laws(answer: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
-    """The laws of every mode along its own part of the motion; the worst of each."""
+def laws(
+    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory
+) -> Iterator[Check]:
+    """The laws of every mode along its own part of the motion; the worst of each.
+
+    marched: the motion of the bodies at every step.
+    """
     found: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
-    scale = Scale(generated.base, _speeds(answer, generated.base, times), float(np.ptp(times)))
+    scale = Scale(generated.base, _speeds(generated.base, marched), float(np.ptp(times)))
     for name in dict.fromkeys(followed.modes):
         mine, mode = np.array(followed.modes) == name, answer.system.modes[name]
         part = times[mine], followed.y[mine]
@@ -105,21 +110,24 @@ def laws(answer: Answer, generated: Mechanism, times: Array) -> Iterator[Check]:
     yield from map(gravest, found.values())
 
 
-def _speeds(answer: Answer, base: Multibody, times: Array) -> Array:
-    """The largest |v| of a kind, and at least what goes through the size, or 1 rad, in the time."""
-    modes = (answer.system.modes[name] for name in answer.followed.modes)
-    rows = zip(modes, times.tolist(), answer.followed.y, strict=True)
-    poses = [mode.poses(t, *mode.parted(y)) for mode, t, y in rows]
-    v = np.abs([base.place(pose)[1] for pose in poses])
-    frame = SPACE if len(next(iter(poses[0].values()))) == SPACE.width else PLANE
-    size = worst(abs(x) for pose in poses for body in pose.values() for x in body[frame.place])
+def _speeds(base: Multibody, marched: Trajectory) -> Array:
+    """The largest |v| of a kind, and at least what goes through the size, or 1 rad, in the time.
+
+    At any step: a motion may be sampled where nothing moves.
+    """
+    frame = base.where.scene.frame
+    states = np.concatenate(list(marched.states.values()))
     bodies = base.where.scene.bodies.values()  # one may stay with its centre at the origin
-    size = max(size, worst(abs(x) for b in bodies for point in b.points.values() for x in point))
-    size = max(size, worst(b.radius or 0.0 for b in bodies)) or 1.0
-    duration, turning = float(times[-1] - times[0]), base.where.turning
-    least = np.where(turning, 1.0, size) / duration
-    fastest = [worst(v[:, turning == turns].ravel()) for turns in turning]
-    return np.maximum(fastest, least)
+    lengths = [worst(np.abs(states[:, frame.place]).ravel())]
+    lengths += [abs(x) for body in bodies for point in body.points.values() for x in point]
+    lengths += [body.radius or 0.0 for body in bodies]
+    kinds = {False: (frame.velocity, worst(lengths) or 1.0), True: (frame.spin, 1.0)}
+    duration = float(np.ptp(marched.times))
+    fastest = {
+        turns: max(worst(np.abs(states[:, columns]).ravel()), through / duration)
+        for turns, (columns, through) in kinds.items()
+    }
+    return np.array([fastest[turns] for turns in base.where.turning.tolist()])
 
 
 def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) -> Iterator[Check]:
@@ -131,6 +139,7 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     look()
     bound = len(mode.f_a(0.0, mode.parted(y[0])[0])) > 0
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
+    drifted: list[float] = []  # the power of what holds, on what a rate is off: judged as drift
     by_one: list[float] = []  # of the Lagrangian, where there is a V and nothing binds
     for t, row in zip(times.tolist(), y, strict=True):
         reached(t)
@@ -146,7 +155,10 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
         powers += [float(np.sum(np.abs(p * a))), worst(np.abs(terms)), alone[1]]
         powers.append(float(np.sum(np.abs(p * v))) * turn)
         if bound:
-            derived.append(worst(np.abs(lagrange.multipliers(mode, t, q, v)[0] - a)))
+            by_rows, forces_b = lagrange.multipliers(mode, t, q, v)
+            derived.append(worst(np.abs(by_rows - a)))
+            slip = np.asarray(mode.f_a(t, q), float) @ v - mode.g(t, q)
+            drifted.append(abs(float(forces_b @ slip)))
         else:
             derived.append(worst(np.abs(lagrange.accelerations(mode, t, q, v) - a)))
             if lagrange.of_potential(mode, t, q, mode.rates(t, q, v)).any():
@@ -162,7 +174,7 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     yield Check(f"accelerations by {by}", worst(derived) / size, lost)
     if by_one:
         yield Check("Lagrangian (2.51), (2.52)", worst(by_one) / size, LAW)
-    yield Check("power balance (2.51)", worst(balances) / power, LAW)
+    yield Check("power balance (2.51)", worst(balances) / power, _beside(worst(drifted) / power))
     if written:
         yield Check("Newton-Euler balance (2.23), (2.27)", worst(unbalanced), LAW)
     if forces:  # a system need not know its reactions
@@ -191,6 +203,11 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
                 found.setdefault(name, []).append(worst(np.abs(other - a)) / size)
     for name, apart in found.items():
         yield Check(f"accelerations by {name}", worst(apart), bound)
+
+
+def _beside(drift: float) -> float:
+    """LAW, or a power of ten above twice a drift that is more than half of it."""
+    return max(LAW, 10.0 ** math.ceil(math.log10(2 * drift))) if drift > 0.0 else LAW
 
 
 def _rounding(mode: Mode, condition: float) -> float:

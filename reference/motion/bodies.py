@@ -200,13 +200,14 @@ class Answer:
 
         Raises Stuck as `trajectory` does.
         """
-        return self._phased(self.followed.march, forces=forces)
+        return self.along(self.followed.march, forces=forces)
 
     def record(self, *, forces: bool) -> Trajectory:
         """The rows that were kept on the way, with reactions or without."""
-        return self._phased(self.followed.rows, forces=forces)
+        return self.along(self.followed.rows, forces=forces)
 
-    def _phased(self, rows: Sequence[Kept], *, forces: bool) -> Trajectory:
+    def along(self, rows: Sequence[Kept], *, forces: bool = True) -> Trajectory:
+        """The motion at any rows of it."""
         phase = np.array([row[1] for row in rows], dtype=np.int64)
         return self.turns.told(replace(self._bodies(rows, forces=forces), phase=phase))
 

@@ -22,7 +22,6 @@ from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.power import done, pieces
 from textmech.cases.trajectory import Trajectory
-from textmech.reference.certificate import errors
 from textmech.reference.solve import Solution, solve
 
 # Nothing slips, strikes or is carried by the ground: forces and drives do all the work. Beside each
@@ -219,7 +218,6 @@ def test_a_work_that_takes_no_heed_of_corners_is_seen(
     """The reference says of itself that it knows the work no better than a part of a sample."""
     case = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "100.0"))
     monkeypatch.setattr(looking, "corners", lambda *_: set[float]())
-    monkeypatch.setattr(errors, "corners", lambda *_: set[float]())
     motion = solve(case)
     work = observe(case.scene, motion.trajectory, "hand.work")[-1]
     off = abs(work - ((1 + 5 * 0.42) ** 2 - 1) / 2)
@@ -275,7 +273,8 @@ def test_the_stated_error_of_work_is_true_at_any_samples(
     motion = solve(case)
     for name, known in swung(begin, end, stiffness, case.times).items():
         work = observe(case.scene, motion.trajectory, f"{name}.work")
-        assert np.max(np.abs(work - known)) <= stated(motion, f"{name}.work"), name
+        rounded = 2e-15  # of the known one: 5 N by what places of 2 m are apart
+        assert np.max(np.abs(work - known)) <= stated(motion, f"{name}.work") + rounded, name
 
 
 HELD = """\

@@ -19,9 +19,10 @@ def certified(
     """All checks that apply if this system answers; without one, the generated mechanism does."""
     generated = scenes.mechanism(case)
     built = Answer(generated, follow(generated, case.times), scene=case.scene)
+    marched = built.march(forces=False)
     if system is None:
-        return certify(case, built, built, generated, built.trajectory(case.times))
+        return certify(case, built, built, generated, built.trajectory(case.times), marched)
     followed = follow(system, case.times, by=partial(either, tolerance=tolerance))
     beside = reactions_of(generated, built.followed, followed)
     answer = Answer(system, followed, beside, scene=case.scene)
-    return certify(case, answer, built, generated, answer.trajectory(case.times))
+    return certify(case, answer, built, generated, answer.trajectory(case.times), marched)

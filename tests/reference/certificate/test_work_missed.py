@@ -7,8 +7,9 @@ import pytest
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
+from textmech.cases.scene.observe import observe
 from textmech.reference import assumptions
-from textmech.reference.certificate import certify, errors
+from textmech.reference.certificate import certify, work_error
 from textmech.reference.solve import solve
 
 DRIVEN = """\
@@ -78,21 +79,91 @@ def test_work_that_they_tell_is(tmp_path: Path) -> None:
     assert solve(typed(tmp_path, pushed(0.005), tail="")).holds
 
 
-@pytest.mark.slow
-@pytest.mark.mutant("a sum over samples that is not held against the steps")
-def test_a_short_contact_needs_the_steps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(errors, "_missed", lambda *_: 0.0)
-    monkeypatch.setattr(certify, "UNEVEN", certify.QUARTERS)  # of which two lie beside the contact
-    assert solve(typed(tmp_path, driven(BUFFER), tail="")).holds
+# A zigzag of a drive, or of a heavy cart, hides what a buffer takes between two samples.
+ZIGZAG = driven(BUFFER).replace(
+    "{rail.speed: 1.0}",
+    "{rail.speed: {table: {times: [0, 0.2, 0.4, 0.6, 0.8, 1], values: [1, 1.2, 1, 1.2, 1, 1.2]}}}",
+)
+HEAVY = driven(BUFFER).replace("mass: 1.0", "mass: 1000").replace(
+    "{rail.speed: 1.0}", "{rail.speed: {sine: {amplitude: 1, angular_frequency: 6.28, phase: 0.5}}}"
+)  # fmt: skip
 
 
 @pytest.mark.slow
-@pytest.mark.mutant("a sum over samples that is held against even parts of them")
-def test_a_period_in_step_needs_uneven_parts(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("text", "at"), [(ZIGZAG, 0.685), (HEAVY, 0.43)])
+def test_a_short_contact_beside_a_power_that_moves_is_seen(
+    tmp_path: Path, text: str, at: float
 ) -> None:
-    monkeypatch.setattr(certify, "UNEVEN", certify.QUARTERS)
+    """The only source of energy is the drive: its work is what the whole has more at the end."""
+    stiff = text.replace("50000", "2000000").replace("x: 0.71", f"x: {at}")
+    with pytest.raises(CaseError, match=ASKS) as wrong:
+        solve(typed(tmp_path, stiff, tail=""))
+    assert [mistake.where for mistake in wrong.value.mistakes] == ["allow.rail.work"]
+
+
+PASSES = """\
+scene:
+  gravity: none
+  points: {O: [0, 0], A: [0, HIGH]}
+  bodies: {cart: {particle: {mass: 1.0}}}
+  joints: {rail: {slide: [ground.A, cart.center], along: [1, 0]}}
+  forces: {oil: {damper: [ground.O, cart.center], damping: 2.0}}
+  drive: {rail.speed: 1.0}
+initial: {rail: {shift: BEGIN}}
+duration: 2.0
+samples: 21
+allow: {cart.x: 1.0e-3, oil.work: ALLOWED, rail.work: ALLOWED}
+"""
+
+
+def passes(high: float, begin: float, allowed: float) -> str:
+    """A cart that passes the foot of a damper, so high above it."""
+    numbers = {"HIGH": high, "BEGIN": begin, "ALLOWED": allowed}
+    text = PASSES
+    for word, number in numbers.items():
+        text = text.replace(word, repr(number))
+    return text
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("high", [1e-2, 1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("begin", [-1.03, -1.0111, -0.95])
+def test_what_a_driven_motion_does_not_feel_is_counted(
+    tmp_path: Path, high: float, begin: float
+) -> None:
+    """W = −d v (x − h atan(x/h)): the error that is stated is the true one."""
+    case = typed(tmp_path, passes(high, begin, 100.0), tail="")
+    (one,) = (check for check in solve(case).checks if check.name == "error of oil.work")
+    motion, ends = solve(case).trajectory, (begin, begin + 2.0)
+    low, top = (x - high * math.atan(x / high) for x in ends)
+    off = abs(float(observe(case.scene, motion, "oil.work")[-1]) + 2.0 * (top - low))
+    assert off <= (one.certified or 0.0) <= 1.5 * off + 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a sum over samples that is held against no integral")
+def test_a_sum_needs_the_integral(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(certify, "work_errors", lambda *_: {})
     assert solve(typed(tmp_path, TURNED, tail="")).holds
+
+
+@pytest.mark.parametrize("k", range(0, 24, 2))
+def test_the_nodes_integrate_powers(k: int) -> None:
+    """∫ tᵏ over (−1, 1) = 2/(k + 1), by seven nodes up to t¹³."""
+    powers = work_error.NODES**k
+    assert powers @ work_error.FIFTEEN == pytest.approx(2 / (k + 1), rel=1e-15 * (k + 4))
+    fewer = powers[1::2] @ work_error.SEVEN
+    assert (abs(fewer * (k + 1) / 2 - 1) < 1e-14) == (k < 14)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("an integral over whole steps, which feel no force that does not move them")
+def test_steps_are_halved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else much more would be stated than is off."""
+    case = typed(tmp_path, passes(1e-4, -1.03, 100.0), tail="")
+    monkeypatch.setattr(work_error, "FINE", math.inf)
+    (one,) = (check for check in solve(case).checks if check.name == "error of oil.work")
+    assert (one.certified or 0.0) > 5 * 6.3e-4  # what is off: -4 + 1e-4 π, nearly
 
 
 EVENT = "events: {strikes: {knock.gap: falls to zero}}\n"
