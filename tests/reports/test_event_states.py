@@ -353,3 +353,81 @@ def test_a_graze_that_is_not_said_is_certified(
     monkeypatch.setattr(reading, "touches", lambda *_: iter(()))
     with pytest.raises(AssertionError):
         test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10, tmp_path)
+
+
+PUSHED = """\
+title: A block that a law sets off, stops, or turns
+source: {{equations: ["2.60"]}}
+scene:
+  gravity: none
+  points: {{O: [0, 0]}}
+  bodies: {{b: {{particle: {{mass: 1.0}}}}}}
+  joints: {{r: {{slide: [ground.O, b.center], along: [1, 0]}}}}
+  {acts}
+initial: {{r: {{shift: 0, speed: {speed}}}}}
+events: {{it: {{b.vx: {rule}}}}}
+duration: 2.0
+samples: {samples}
+step: {{mujoco: 0.005, pymunk: 0.005}}
+allow: {{b.x: 1.0e-3, it.time: 1.0e-3}}
+"""
+STEP = "forces: {p: {push: b.center, step: {amplitude: [1, 0], at: 0.25}}}"
+PULSE = "forces: {p: {push: b.center, pulse: {amplitude: [-1, 0], from: 0.25, until: 1.25}}}"
+TABLE = "drive: {r.speed: {table: {times: [0, 0.5, 1, 1.5, 2], values: [1, 0, 0, 1, -1]}}}"
+
+
+def pushed(tmp_path: Path, acts: str, speed: str, rule: str, samples: int = 21) -> Any:
+    path = tmp_path / "pushed.yaml"
+    text = PUSHED.format(acts=acts, speed=speed, rule=rule, samples=samples)
+    path.write_text(text.replace(", speed: none", ""), encoding="utf-8")
+    (case,) = load(path)
+    return case, solve(case).trajectory
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("what begins or ends to rest at a corner of a law, which changes no mode")
+@pytest.mark.parametrize("samples", [21, 11])
+@pytest.mark.parametrize(
+    ("acts", "speed", "rule", "times"),
+    [
+        (STEP, "0", "leaves zero", [0.25]),
+        (PULSE, "1", "stays zero", [1.25]),
+        (PULSE, "1", "falls to zero", [1.25]),
+        (TABLE, "none", "stays zero", [0.5]),
+        (TABLE, "none", "leaves zero", [1.0]),
+        (TABLE, "none", "falls to zero", [0.5, 1.75]),
+    ],
+)
+def test_what_a_law_sets_off_or_stops_is_an_event(
+    acts: str, speed: str, rule: str, times: list[float], samples: int, tmp_path: Path
+) -> None:
+    case, motion = pushed(tmp_path, acts, speed, rule, samples)
+    found = reference_events(case.scene, motion.record, case.events["it"])
+    assert found.tolist() == pytest.approx(times, abs=1e-12)
+    assert mistaken(case, motion) == []
+
+
+@pytest.mark.slow
+def test_what_comes_at_the_last_instant_is_said_to(tmp_path: Path) -> None:
+    """v = 1 − t/2; and a ball that lands at 1 s: by h = v t + g t²/2."""
+    slows = "forces: {p: {push: b.center, constant: [-0.5, 0]}}"
+    (mistake,) = mistaken(*pushed(tmp_path, slows, "1", "falls to zero"))
+    assert mistake.what.startswith("comes at the last instant, 2 s: whether it still happens")
+    text = """\
+title: A ball that lands at the end
+source: {equations: ["2.60"]}
+scene:
+  bodies: {b: {particle: {mass: 1.0}}}
+  contacts: {c: {between: [b, ground.floor], friction: 0, restitution: 0.5}}
+initial: {b: {x: 0, y: 5.903325, vx: 1, vy: -1}}
+events: {lands: {c.gap: falls to zero}}
+duration: 1.0
+samples: 26
+step: {mujoco: 0.005, pymunk: 0.005}
+allow: {b.x: 1.0e-3, lands.time: 1.0e-3}
+"""
+    path = tmp_path / "lands.yaml"
+    path.write_text(text, encoding="utf-8")
+    (case,) = load(path)
+    (mistake,) = mistaken(case, solve(case).trajectory)
+    assert mistake.what.startswith("comes at the last instant, 1 s")

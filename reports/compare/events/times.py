@@ -16,7 +16,7 @@ from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
 from ....cases.scene.passages import lasting, passages, touches
-from ....cases.scene.quantity import at_event
+from ....cases.scene.quantity import at_event, table
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
 from .rests import LOW, STEPS, rests
@@ -26,32 +26,69 @@ SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a
 SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
 SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
+TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
-    """Times (K,) [s] of the event, from the boundaries of the reference's phases."""
+    """Times (K,) [s] of the event, from the boundaries of the reference's phases.
+
+    What moves may also begin or end to rest where a law jumps or bends, in one phase.
+    """
     u, small, pieces = _pieces(scene, record, event)
-    phases = _phases(scene, record, event, u, small, pieces)
+    parts = _parted(scene, record, event, pieces)
+    phases = _phases(scene, record, event, u, small, parts)
     happens = _RULES[event.rule]
     times = [float(before.end) for before, after in pairwise(phases) if happens(before, after)]
     if event.crosses:
         corners = scene.corners()
-        for piece in pieces:
+        for piece in _moving(record, parts, phases):
             times += passages(record.times[piece], u[piece], small, corners)
     return np.array(sorted(times), float)
+
+
+def _parted(
+    scene: Scene, record: Trajectory, event: Event, pieces: Sequence[NDArray[np.int64]]
+) -> list[NDArray[np.int64]]:
+    """The pieces, of a place or a rate also cut at the corners of laws: there it has no jump."""
+    if table(scene)[event.quantity].kind == "force":
+        return [*pieces]
+    found: list[NDArray[np.int64]] = []
+    for piece in pieces:
+        inside = np.isin(record.times[piece], list(scene.corners()))
+        inside[0] = inside[-1] = False
+        ends = [0, *np.flatnonzero(inside).tolist(), len(piece) - 1]
+        found += [piece[begin : end + 1] for begin, end in pairwise(ends)]
+    return found
+
+
+def _moving(
+    record: Trajectory, parts: Sequence[NDArray[np.int64]], phases: Sequence["_Phase"]
+) -> Iterator[NDArray[np.int64]]:
+    """Yields the parts of one phase that follow each other, between those in which u stays zero."""
+    assert record.phase is not None
+    joined: list[NDArray[np.int64]] = []
+    for part, phase in zip(parts, phases, strict=True):
+        if joined and (not phase.moves or record.phase[joined[-1][0]] != record.phase[part[0]]):
+            yield np.unique(np.concatenate(joined))
+            joined = []
+        if phase.moves:
+            joined.append(part)
+    if joined:
+        yield np.unique(np.concatenate(joined))
 
 
 @dataclass(frozen=True)
 class _Phase:
     """A piece of the record, as an event sees it: whether its quantity leaves zero, or falls to it.
 
-    end: of the piece [s].
+    end: of the piece [s]; within: whether its phase goes on there, at a corner of a law.
     """
 
     moves: bool
     falls: bool
     end: float
+    within: bool
 
 
 def _phases(
@@ -70,7 +107,7 @@ def _phases(
         ended = any(name in names for name in record.ended[number:then])
         moves = ended or _leaves(u[piece], small)
         falls = ended or (moves and _lands(u[piece], small))
-        found.append(_Phase(moves, falls, float(record.times[piece[-1]])))
+        found.append(_Phase(moves, falls, float(record.times[piece[-1]]), number == then))
     return found
 
 
@@ -115,8 +152,8 @@ def _pieces(
 _RULES: Mapping[str, Callable[[_Phase, _Phase], bool]] = {
     "stays zero": lambda before, after: before.moves and not after.moves,
     "leaves zero": lambda before, after: not before.moves and after.moves,
-    "falls to zero": lambda before, after: before.falls,
-    "rises to zero": lambda before, after: before.falls,
+    "falls to zero": lambda before, after: before.falls and not (before.within and after.moves),
+    "rises to zero": lambda before, after: before.falls and not (before.within and after.moves),
 }
 
 
@@ -225,8 +262,23 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
             bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
             places = [("allow", bound) for bound in bounds]
         what = f"never happens in {case.duration:g} s: nothing is compared"
+        if _at_the_end(case.scene, record, event):
+            what = (
+                f"comes at the last instant, {case.duration:g} s: whether it still happens is "
+                "rounding; take another duration"
+            )
         found += [case.mistake(place, what) for place in places]
     return found
+
+
+def _at_the_end(scene: Scene, record: Trajectory, event: Event) -> bool:
+    """Whether the last row is the event's: by the mechanism's word, or as its quantity is zero."""
+    u, small, pieces = _pieces(scene, record, event)
+    assert record.phase is not None
+    ended = record.ended[int(record.phase[pieces[-1][0]]) :]
+    if any(name in _names(scene, event) for name in ended):
+        return True
+    return event.crosses and _leaves(u[pieces[-1]], small) and _lands(u[pieces[-1]], small)
 
 
 def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
@@ -278,7 +330,10 @@ def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
     for name, event in case.events.items():
         u, small, pieces = _pieces(case.scene, record, event)
         for piece in pieces if event.crosses else ():
+            happens = reference_events(case.scene, record, event)
             for t in touches(record.times[piece], u[piece], small, case.scene.corners()):
+                if np.any(np.abs(happens - t) <= TOUCHES * case.duration):
+                    continue  # it stays there until a law lets it go
                 what = (
                     f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
                     f"within {small:.1e}: whether it gets there is rounding; give another value"
