@@ -12,6 +12,7 @@ from ..cases.fields.kind import WORK
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene import Contact
 from ..cases.scene.difference import apart
+from ..cases.scene.forces.muscle import Muscle
 from ..cases.scene.frame import PLANE, SPACE
 from ..cases.scene.islands import islands
 from ..cases.scene.observe import motion_of, observe
@@ -40,6 +41,10 @@ def check_start(case: Case, system: System, generated: Mechanism) -> None:
     """Raises CaseError with what a hand-written system starts otherwise than the scene does."""
     mode, *state = system.start()
     told = system.modes[mode].poses(0.0, *state)
+    if unknown := [name for name in case.scene.bodies if name not in told]:
+        has = ", ".join(name for name, pose in told.items() if len(pose) > 1)
+        what = f"{case.system} has no body {unknown[0]!r}; its bodies: {has}"
+        raise CaseError([case.mistake(("scene", "bodies", unknown[0]), what)])
     own = {name: told[name] for name in case.scene.bodies}  # a start of inner states is no body's
     assembled = generated.base.where.poses(*generated.start()[1:])
     if found := list(_otherwise(case, own, assembled)):
@@ -97,6 +102,7 @@ def check_premises(case: Case, motion: Trajectory, followed: Followed) -> None:
         _past_ends(case, motion),
         _still(case, motion),
         _struck(case, motion),
+        _beyond_law(case, motion),
     ):
         if found := list(mistakes):
             raise CaseError(found)
@@ -258,7 +264,7 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
     for name in (name for name in case.allow if name in known):  # the rest are of events
         quantity = known[name]
         claimed = name in case.stays
-        if (case.rests and not claimed) or quantity.kind not in ("coordinate", "velocity"):
+        if quantity.kind not in ("coordinate", "velocity"):
             continue
         samples = observe(case.scene, motion, name)
         # a place held at 0 trembles by rounding, which is small only beside the other bodies'
@@ -268,7 +274,11 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         )
         moved = _moved(samples)
         still = moved <= max(STILL * size, NOISE * _floor(case, quantity.unit))
-        if still and not claimed:
+        if case.rests and not claimed:
+            if not still:
+                what = f"{name} moves by {moved:.3g} {quantity.unit}"
+                yield case.mistake(("rests",), what)
+        elif still and not claimed:
             at = "as it is" if samples.ndim > 1 else f"{samples[0]:.6g}"
             what = f"never moves: it stays {at}; leave it out, or say what is claimed: "
             yield case.mistake(("allow", name), f"{what}`stays: [{name}]`, or `rests: true` of all")
@@ -308,3 +318,21 @@ def _struck(case: Case, motion: Trajectory) -> Iterator[Mistake]:
                 "before it"
             )
             yield case.mistake(("allow", name), what)
+
+
+def _beyond_law(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """What contracts in a muscle after Hill, pressed by a or more: there its law is none."""
+    for name, force in case.scene.forces.items():
+        if not isinstance(force, Muscle):
+            continue
+        length = observe(case.scene, motion, f"{name}.length")
+        own = observe(case.scene, motion, f"{name}.{force.inner}")
+        pulls = force.series_stiffness * (length - own)
+        beyond = pulls <= -force.hill_a
+        if beyond.any():
+            k = int(np.argmax(beyond))
+            what = (
+                f"what contracts is pressed by {-pulls[k]:.4g} N at {motion.times[k]:.4g} s, and "
+                f"Hill's law holds above {-force.hill_a:g} N"
+            )
+            yield case.mistake(("scene", "forces", name), what)

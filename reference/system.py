@@ -166,7 +166,8 @@ class Guard:
     event is the name of what happens there, or None for a change that nobody observes. A guard at
     zero when its mode begins has to rise first; if it falls at once, the mode ends at once.
     at_last: what `then` is in the limit, where falls without end pile up in a finite time, as those
-    of a ball that bounces ever lower: it rests. None where there is no limit to go on from.
+    of a ball that bounces ever lower: it rests. None where there is no limit to go on from; what it
+    answers is None where nothing keeps the laws yet, as what bounces besides has not come to rest.
     vain: whether it is none where `then` gives back what it was given, as a landing from a gap that
     has just opened by rounding. jumps: whether the motion is another one however little g falls: a
     blow has a speed by the root of its depth, and what holds may be more than what then brakes.
@@ -175,7 +176,7 @@ class Guard:
     event: str | None
     g: Callable[[float, Array, Array], float]
     then: Callable[[float, Array, Array], tuple[str, Array, Array]]
-    at_last: Callable[[float, Array, Array], tuple[str, Array, Array]] | None = None
+    at_last: Callable[[float, Array, Array], tuple[str, Array, Array] | None] | None = None
     vain: bool = False
     jumps: bool = False
 

@@ -158,6 +158,9 @@ class _Walk:
         try:
             self._walk(mode, f)
         except IntegrationError as error:
+            if len(self.y) == len(self.times) and self.t >= self.times[-1]:
+                self.t = float(self.stops[-1])  # an event on the last sample: all is told
+                return
             raise Stuck(str(error), mode, error.time, f.y) from error
         except (ArithmeticError, LinAlgError) as error:
             raise Stuck(str(error), mode, self.t, f.y) from error
@@ -249,8 +252,8 @@ class _Walk:
         name = guard.event or f"{ended} to {mode}"
         following = self._piles_up(name, t, refused=guard.at_last is None)
         if following is not None and guard.at_last is not None:
-            last = guard.at_last(t, *parted)
-            if gone(v, last[2], self.system.modes[mode].accelerations(t, q, v), following):
+            last, a = guard.at_last(t, *parted), self.system.modes[mode].accelerations(t, q, v)
+            if last is not None and gone(v, last[2], a, following):
                 mode, q, v = last
                 self.endless.append(pile(self.fired[name]))
         self.spent = i if mode == ended else None

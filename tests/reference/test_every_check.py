@@ -65,6 +65,8 @@ PREMISES = {
     ),
     "assumptions.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
     "assumptions.py::_struck": "certificate/test_work_missed.py",
+    "assumptions.py::check_start": "test_premises.py::test_a_written_system_has_the_scenes_bodies",
+    "assumptions.py::_beyond_law": "test_premises.py::test_a_muscle_is_not_pressed_beyond_its_law",
     "determined.py::check_determined": (
         "test_determined.py::test_its_forces_are_refused_with_their_interval"
     ),

@@ -127,3 +127,65 @@ def test_a_start_that_differs_in_what_follows_names_the_body(tmp_path: Path) -> 
     mistake = refused(scenes.typed(tmp_path, text))
     assert mistake.where == "initial.bar"
     assert "starts bar with y = -0.257115 m, the scene with -0.157115" in mistake.what
+
+
+@pytest.mark.slow
+def test_a_written_system_has_the_scenes_bodies(tmp_path: Path) -> None:
+    text = """\
+system: bar_pendulum
+parameters: {m: 1.2, l: 0.8, phi0: 24.6 deg}
+scene:
+  points: {O: [0, 0]}
+  bodies: {zed: {bar: {mass: m, length: l}}}
+  joints: {hinge: {pin: [ground.O, zed.start]}}
+initial: {zed: {angle: phi0}}
+allow: {zed.angle: 1.0e-2}
+"""
+    mistake = refused(scenes.typed(tmp_path, text))
+    assert mistake.where == "scene.bodies.zed"
+    assert mistake.what == "bar_pendulum has no body 'zed'; its bodies: bar"
+
+
+LOADED = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {load: {particle: {mass: 5.0}}}
+  joints: {guide: {slide: [ground.O, load.center], along: [0, 1]}}
+  forces:
+    m: {muscle: [ground.O, load.center], isometric: 1000.0, hill_a: 250.0, hill_b: 0.15,
+        series_stiffness: 30000.0, parallel_stiffness: 0.0, rest_length: 0.3,
+        contractile_length: LENGTH}
+initial: {load: {x: 0, y: -0.3, vy: 0}}
+allow: {load.y: 1.0, m.force: 1000.0}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a muscle on the other branch of Hill's hyperbola")
+def test_a_muscle_is_not_pressed_beyond_its_law(tmp_path: Path) -> None:
+    """(F + a)(v + b) = (F₀ + a) b holds for F > −a: 30 kN/m by 9.33 mm are 280 N."""
+    end = scenes.tail(0.2, 51)
+    assert solve(scenes.typed(tmp_path, LOADED.replace("LENGTH", "0.3"), tail=end)).holds
+    text = LOADED.replace("LENGTH", "0.30933333")
+    mistake = refused(scenes.typed(tmp_path, text, tail=end))
+    assert mistake.where == "scene.forces.m"
+    assert mistake.what.startswith("what contracts is pressed by 280 N at 0 s, and Hill's law")
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a claim that nothing moves, which nobody asks")
+def test_what_rests_does_not_move(tmp_path: Path) -> None:
+    text = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {particle: {mass: 1.0}}}
+  joints: {r: {slide: [ground.O, b.center], along: [1, 0]}}
+  forces: {s: {spring: [ground.O, b.center], stiffness: 100.0, rest_length: 1.0}}
+initial: {b: {x: 1.1, y: 0, vx: 0, vy: 0}}
+rests: true
+allow: {b.x: 1.0e-3}
+"""
+    mistake = refused(scenes.typed(tmp_path, text))
+    assert (mistake.where, mistake.what) == ("rests", "b.x moves by 0.2 m")
+    assert solve(scenes.typed(tmp_path, text.replace("x: 1.1", "x: 1.0"))).holds

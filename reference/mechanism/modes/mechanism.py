@@ -158,7 +158,7 @@ class PlanarMechanism(Mechanism):
         if (normal := e.normal) is not None:
             if state == "open":
                 gap = self._clear(e, normal)
-                rest = self._lands(mode, i, rests=True)
+                rest = self._comes_to_rest(mode, i)
                 lands, name = self._lands(mode, i), f"{e.name} {e.endings[1]}"
                 yield Guard(name, gap, lands, rest, vain=True, jumps=True)
                 return
@@ -236,12 +236,22 @@ class PlanarMechanism(Mechanism):
             return mode, q, v
         return settled(self.built, staying(self.built, mode), t, q, v)
 
-    def _lands(
-        self, mode: str, i: int, *, rests: bool = False
-    ) -> Callable[[float, Array, Array], After]:
-        """The impact law, and what each contact and slide may do after it; without a rebound."""
+    def _lands(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
+        """The impact law, and what each contact and slide may do after it."""
         near = CLOSED * self.size
-        return lambda t, q, v: landed(self.built, mode, i, t, q, v, near=near, rests=rests)
+        return lambda t, q, v: landed(self.built, mode, i, t, q, v, near=near)
+
+    def _comes_to_rest(self, mode: str, i: int) -> Callable[[float, Array, Array], After | None]:
+        """The same without a rebound; None where no motion keeps the laws then."""
+        near = CLOSED * self.size
+
+        def then(t: float, q: Array, v: Array) -> After | None:
+            try:
+                return landed(self.built, mode, i, t, q, v, near=near, rests=True)
+            except Undetermined:
+                return None
+
+        return then
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""

@@ -37,7 +37,7 @@ def painleve(elements: Sequence[Element], part: str, which: str, t: float) -> Un
         f"with this friction the motion is not determined: at t = {t:.4g} s {which} "
         "satisfies the law (Painlevé's paradox)"
     )
-    if all(e.frictionless or not e.slips for e in elements):
+    if all(e.frictionless or not e.slips or e.slip is None for e in elements):  # ropes, stops
         what = f"the motion is not determined: at t = {t:.4g} s {which} satisfies the law"
     return Undetermined(part, what, t)
 

@@ -1,8 +1,10 @@
 """Friction of a generated slide, dry and smooth, against closed forms and a written system."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
-from given import random_scenes
+from given import random_scenes, scenes
 
 from textmech.cases.scene import (
     Anchor,
@@ -19,6 +21,7 @@ from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.mechanism.modes.smooth import SmoothMultibody
 from textmech.reference.motion.follow import follow
+from textmech.reference.solve import solve
 from textmech.reference.system import Only
 from textmech.reference.systems.friction.smooth_friction import SmoothDynamometer
 
@@ -92,3 +95,27 @@ def test_smooth_friction_on_an_oblique_slide_of_odd_mass() -> None:
     block = SmoothDynamometer(1.3, 2.0, 2.0, 3.0, 3.0, 6.0, 6.0, 5e-4, 1e5)
     exact = follow(Only(block), times).y
     assert y[:, :2] @ [0.6, 0.8] == pytest.approx(exact[:, 0], abs=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("what slips at the last instant, followed behind the end")
+def test_a_slip_that_begins_at_the_last_sample_is_none(tmp_path: Path) -> None:
+    """c u t = F_s, 2 · 0.3 · 10 N: all samples find it at rest."""
+    text = """\
+scene:
+  gravity: none
+  points: {O: [0, 0], hook: {at: [5, 0], velocity: [0.3, 0]}}
+  bodies: {block: {particle: {mass: 0.8}}}
+  joints:
+    guide:
+      slide: [ground.O, block.center]
+      along: [1, 0]
+      dry_friction: {static: 6.0, kinetic: 5.1, stribeck: {speed: 0.55}}
+  forces: {scale: {spring: [block.center, ground.hook], stiffness: 2.0, rest_length: 5}}
+initial: {block: {x: 0, vx: 0}}
+rests: true
+allow: {block.x: 1.0e-3, guide.friction: 1.0e-2}
+"""
+    motion = solve(scenes.typed(tmp_path, text, tail=scenes.tail(10.0, 101)))
+    assert motion.holds
+    assert np.all(motion.trajectory.states["block"][:, 0] == 0.0)

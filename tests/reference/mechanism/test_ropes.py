@@ -113,3 +113,25 @@ def test_an_impact_that_throws_back_is_seen(
         unilateral.Roped, "__init__", lambda self, **given: made(self, **given, restitution=0.5)
     )
     assert not solve(scenes.SHIPPED["ball_on_rope.caught"]).holds
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a limit that nothing keeps, taken for the end of the motion")
+def test_a_rope_and_a_stop_that_strike_in_turn_pile_up(tmp_path: Path) -> None:
+    """While the bar still flies to its stop the rope's blows have no limit: they go on, and on."""
+    text = """\
+scene:
+  points: {O: [0, 1.2]}
+  bodies: {bar: {bar: {mass: 1.1, length: 0.32}}, p: {particle: {mass: 2.8}}}
+  joints: {hinge: {pin: [ground.O, bar.start]}}
+  forces:
+    R: {rope: [bar.end, p.center], length: 0.196}
+    E: {stops: hinge, low: -0.1, high: 0.24, restitution: 0.8}
+initial: {bar: {angle: -0.02, omega: -2.92}, p: {x: 0.239, y: 1.09, vx: 0.65, vy: -0.78}}
+allow: {bar.angle: 1.0e-1, p.x: 1.0e-1, p.y: 1.0e-1}
+"""
+    assert solve(scenes.typed(tmp_path, text, tail=scenes.tail(0.09, 10))).holds
+    with pytest.raises(
+        CaseError, match=r"E\.low strikes' happens thousands of times or without end"
+    ):
+        solve(scenes.typed(tmp_path, text, tail=scenes.tail(0.52, 27)))
