@@ -1,10 +1,11 @@
 """Errors of work: sums over samples against the integral of the power inside the march's steps.
 
 Samples may miss what acts for a short time, or be in step with it, and so may the steps of an
-integrator where a drive prescribes the motion, which then feels no force. So each step is taken
-again from its start, to the nodes of Gauss and Kronrod, and halved while their two sums differ.
+integrator where a drive prescribes the motion, which then feels no force. So the motion is taken
+again through the nodes of Gauss and Kronrod in each step, and halved while their two sums differ.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -15,11 +16,10 @@ from ...cases.case import Case
 from ...cases.scene.observe import observe, power
 from ...cases.trajectory import Array, Trajectory
 from ..integrators.budget import motion as begins
-from ..integrators.march import march
+from ..integrators.march import IntegrationError, march
 from ..motion.bodies import Answer
 from ..motion.follow import Kept, between, either
-from ..motion.stuck import slope
-from ..system import System
+from ..motion.stuck import Stuck, slope
 
 # Fifteen nodes in (−1, 1) and seven, every second of them: exact up to t²³ and t¹³, so that a step
 # of the march's order needs no halving. What the sums differ by is more than the error of the
@@ -41,6 +41,7 @@ FINE = 1e-12  # of all that is done or taken: of a peak that no node meets its f
 ROUNDING = 1e-14  # of it: what states, powers and their sum are rounded by
 LEAST = 1e-13  # of the motion: a shorter part is left as it is
 MOST = 2_000  # parts: ten seconds of work
+TICKS = 1000  # ulp of time: what ends sooner has no room for nodes, and no work
 
 
 @dataclass(frozen=True)
@@ -52,37 +53,54 @@ class _Part:
     end: float
     y: Array
 
-    def nodes(self, system: System, modes: Sequence[str]) -> Iterator[Kept]:
-        """Yields the states at its nodes, integrated from its beginning."""
-        mode = system.modes[modes[self.phase]]
-        f = between(self.begin, self.end)(slope(mode))  # at its end a law may jump
-        middle, half = (self.begin + self.end) / 2, (self.end - self.begin) / 2
-        at = middle + half * NODES
-        wanted = {*at.tolist()}
-        for step in march(either(mode, f, len(self.y)), [self.begin, *at], self.y):
-            if step.t_next in wanted:
-                yield step.t_next, self.phase, step.y_next
+    @property
+    def nodes(self) -> Array:
+        """The times [s] of its nodes."""
+        return (self.begin + self.end) / 2 + (self.end - self.begin) / 2 * NODES
+
+
+def _states(answer: Answer, parts: Sequence[_Part]) -> Iterator[Kept]:
+    """Yields the states at the nodes of the parts, integrated from where a row of them begins."""
+    system, phases, corners = answer.system, answer.followed.phases, {*answer.system.corners}
+    rows: list[list[_Part]] = []
+    for part in parts:
+        last = rows[-1][-1] if rows else None
+        if last and (last.phase, last.end) == (part.phase, part.begin) and last.end not in corners:
+            rows[-1].append(part)
+        else:
+            rows.append([part])
+    for row in rows:
+        first, mode = row[0], system.modes[phases[row[0].phase]]
+        f = between(first.begin, row[-1].end)(slope(mode))  # at its end a law may jump
+        times = np.concatenate([[first.begin], *(part.nodes for part in row)])
+        wanted = {*times.tolist()}
+        try:
+            for step in march(either(mode, f, len(first.y)), times, first.y):
+                if step.t_next in wanted:
+                    yield step.t_next, first.phase, step.y_next
+        except IntegrationError as error:
+            raise Stuck(str(error), mode, error.time, first.y) from error
 
 
 def work_errors(
     case: Case, motion: Trajectory, answer: Answer, names: Sequence[str]
 ) -> dict[str, float]:
     """By name, how far [J] each sum of `motion` is from the integral, at any sample."""
-    followed, owners = answer.followed, [name.rpartition(".")[0] for name in names]
-    parts = _parts(answer)
+    owners = [name.rpartition(".")[0] for name in names]
+    parts = _parts(answer, motion.times)
     ends, works = [np.zeros(1)], [np.zeros((1, len(names)))]
-    left, total, count = np.zeros(len(names)), np.zeros(0), len(parts)
+    left, total, count = np.zeros(len(names)), np.zeros(len(names)), 0
     while parts:
         begins(parts[0].begin, parts[-1].end)
-        rows = [row for part in parts for row in part.nodes(answer.system, followed.phases)]
+        rows = [*_states(answer, parts)]
         told = answer.along(rows)
         powers = np.stack([power(case.scene, told, owner) for owner in owners])
         powers = powers.reshape(len(names), -1, len(NODES))
         halves = np.array([(part.end - part.begin) / 2 for part in parts])
         closer, off = halves * (powers @ FIFTEEN), halves * (powers[..., 1::2] @ SEVEN)
         off = np.abs(closer - off)
-        if not len(total):
-            total = np.sum(halves * (np.abs(powers) @ FIFTEEN), axis=1)
+        if not count:
+            total, count = np.sum(halves * (np.abs(powers) @ FIFTEEN), axis=1), len(parts)
         wide = np.any(off > FINE * total[:, None], axis=0) & (halves > LEAST * case.duration)
         if count + 2 * int(np.sum(wide)) > MOST:
             wide[:] = False
@@ -109,16 +127,19 @@ def work_errors(
     }
 
 
-def _parts(answer: Answer) -> list[_Part]:
-    """The steps of the march, or several as one where they are very many, between corners."""
-    march, corners = answer.followed.march, {*answer.system.corners}
-    steps = [(*one, after) for one, (after, _, _) in pairwise(march)]
-    many, found, joined = 1 + 2 * len(steps) // MOST, list[_Part](), 0
-    for (t, phase, y, after), (_, other, _) in zip(steps, march[1:], strict=True):
-        if phase != other or after <= t:
+def _parts(answer: Answer, times: Array) -> list[_Part]:
+    """The steps of the march, or several as one where they are very many.
+
+    None goes on over a corner or a sample; where these are very many, over some of them.
+    """
+    march = answer.followed.march
+    ends = {*answer.system.corners, *times[:: 1 + 2 * len(times) // MOST].tolist()}
+    many, found, joined = 1 + 2 * len(march) // MOST, list[_Part](), 0
+    for (t, phase, y), (after, other, _) in pairwise(march):
+        if phase != other or after - t < TICKS * math.ulp(after):
             continue
         last = found[-1] if found else None
-        if last and joined < many and (last.phase, last.end) == (phase, t) and t not in corners:
+        if last and joined < many and (last.phase, last.end) == (phase, t) and t not in ends:
             found[-1], joined = replace(last, end=after), joined + 1
         else:
             found.append(_Part(phase, t, after, y))
