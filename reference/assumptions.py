@@ -321,7 +321,7 @@ def _struck(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 
 def _beyond_law(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """What contracts in a muscle after Hill, pressed by a or more: there its law is none."""
+    """Muscles after Hill that contract under less than −a: there they have no law."""
     for name, force in case.scene.forces.items():
         if not isinstance(force, Muscle):
             continue
