@@ -3,7 +3,8 @@
 And what only its start can: that a hand-written system starts as the scene does.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from ..cases.fields.kind import WORK
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene import Contact
 from ..cases.scene.difference import apart
-from ..cases.scene.forces.muscle import Muscle
 from ..cases.scene.frame import PLANE, SPACE
 from ..cases.scene.islands import islands
 from ..cases.scene.observe import motion_of, observe
@@ -33,6 +33,8 @@ START = 1e-12  # of the sizes: two derivations of one start differ by rounding
 PLACES = ("x", "y", "z", "attitude", "attitude", "attitude", "attitude")
 RATES = ("vx", "vy", "vz", "omega_1", "omega_2", "omega_3")
 FIELDS = {PLANE: ("x", "y", "angle", "vx", "vy", "omega"), SPACE: (*PLACES, *RATES)}
+LEAST: Mapping[str, Callable[[Any], float]] = {"muscle": lambda muscle: -muscle.hill_a}
+"""By a force element's word, what has to act [N] on what contracts in it."""
 UNITS = {"x": "m", "y": "m", "z": "m", "angle": "rad", "attitude": "1"}
 UNITS |= {"vx": "m/s", "vy": "m/s", "vz": "m/s"} | dict.fromkeys(("omega", *RATES[3:]), "rad/s")
 
@@ -322,17 +324,18 @@ def _struck(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 def _beyond_law(case: Case, motion: Trajectory) -> Iterator[Mistake]:
     """Muscles after Hill that contract under less than −a: there they have no law."""
-    for name, force in case.scene.forces.items():
-        if not isinstance(force, Muscle):
+    muscle: Any
+    for name, muscle in case.scene.forces.items():
+        if (least := LEAST.get(muscle.word)) is None:
             continue
         length = observe(case.scene, motion, f"{name}.length")
-        own = observe(case.scene, motion, f"{name}.{force.inner}")
-        pulls = force.series_stiffness * (length - own)
-        beyond = pulls <= -force.hill_a
+        own = observe(case.scene, motion, f"{name}.{muscle.inner}")
+        pulls = muscle.series_stiffness * (length - own)
+        beyond = pulls <= least(muscle)
         if beyond.any():
             k = int(np.argmax(beyond))
             what = (
                 f"what contracts is pressed by {-pulls[k]:.4g} N at {motion.times[k]:.4g} s, and "
-                f"Hill's law holds above {-force.hill_a:g} N"
+                f"Hill's law holds above {least(muscle):g} N"
             )
             yield case.mistake(("scene", "forces", name), what)

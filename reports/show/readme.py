@@ -195,13 +195,6 @@ def drawn() -> str:
     return picture.picture(_rows())
 
 
-if __name__ == "__main__":
-    written = {file: current(file) for file in FILES}
-    for file, text in written.items():
-        (ROOT / file).write_text(text, encoding="utf-8")
-    PICTURE.write_text(drawn(), encoding="utf-8")
-
-
 # Lists what people ask in public: the case that answers, in a line, and the setting it takes.
 
 
@@ -273,3 +266,10 @@ def _at_angle(found: tuple[tuple[str, str], list[float]]) -> tuple[str, float]:
 def _times(ratio: float) -> str:
     """Below 1 only its size matters."""
     return f"{factor(ratio) if ratio > 1 else f'×{ratio:.1g}'} its tolerance"
+
+
+if __name__ == "__main__":
+    written = {file: current(file) for file in FILES}
+    for file, text in written.items():
+        (ROOT / file).write_text(text, encoding="utf-8")
+    PICTURE.write_text(drawn(), encoding="utf-8")

@@ -200,10 +200,11 @@ def test_a_lost_turn_is_seen(name: str, tmp_path: Path, monkeypatch: pytest.Monk
 
         monkeypatch.setattr(Joint, "turned", lost)
     else:
+        counted = bodies.counted
 
         def guessed(scene: Scene, system: System, followed: Followed) -> Counted:
             rows = zip(case.times.tolist(), followed.phase.tolist(), followed.y, strict=True)
-            return bodies.counted(scene, system, replace(followed, march=tuple(rows)))
+            return counted(scene, system, replace(followed, march=tuple(rows)))
 
         monkeypatch.setattr(bodies, "ROUNDS", 1)
         monkeypatch.setattr(bodies, "counted", guessed)
