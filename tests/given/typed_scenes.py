@@ -96,3 +96,13 @@ def time_to_flat() -> float:
     s, weights = half * (s + 1), half * weights
     fallen = np.sin(np.radians(70)) - np.sin(np.radians(70) - s**2)
     return float(np.sum(weights * 2 * s / np.sqrt(2 * weight * fallen / J)))
+
+
+# A particle that slides along x through the ground's O.
+RAILED = """\
+scene:
+  gravity: none
+  points: {O: [0, 0], A: [-1, 0]}
+  bodies: {b: {particle: {mass: 1.0}}}
+  joints: {r: {slide: [ground.O, b.center], along: [1, 0]}}
+"""

@@ -7,7 +7,7 @@ import pytest
 from given import scenes
 from given.refused import refused
 from given.rod import rod
-from given.typed_scenes import AT_REST, CART, WHEEL
+from given.typed_scenes import AT_REST, CART, RAILED, WHEEL
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import solve
@@ -175,16 +175,12 @@ def test_a_muscle_is_not_pressed_beyond_its_law(tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("a claim that nothing moves, which nobody asks")
 def test_what_rests_does_not_move(tmp_path: Path) -> None:
-    text = """\
-scene:
-  gravity: none
-  points: {O: [0, 0]}
-  bodies: {b: {particle: {mass: 1.0}}}
-  joints: {r: {slide: [ground.O, b.center], along: [1, 0]}}
-  forces: {s: {spring: [ground.O, b.center], stiffness: 100.0, rest_length: 1.0}}
-initial: {b: {x: 1.1, y: 0, vx: 0, vy: 0}}
+    text = f"""\
+{RAILED}\
+  forces: {{s: {{spring: [ground.O, b.center], stiffness: 100.0, rest_length: 1.0}}}}
+initial: {{b: {{x: 1.1, y: 0, vx: 0, vy: 0}}}}
 rests: true
-allow: {b.x: 1.0e-3}
+allow: {{b.x: 1.0e-3}}
 """
     mistake = refused(scenes.typed(tmp_path, text))
     assert (mistake.where, mistake.what) == ("rests", "b.x moves by 0.2 m")

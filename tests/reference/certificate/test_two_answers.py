@@ -10,6 +10,7 @@ import pytest
 from given import scenes, written_scenes
 from given.certified import certified
 from given.mutants import mutant, with_mode
+from given.typed_scenes import RAILED
 
 from textmech.cases.case import Case
 from textmech.reference.certificate import certify as module
@@ -17,6 +18,7 @@ from textmech.reference.certificate.agreement import Check
 from textmech.reference.certificate.errors import ERROR
 from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
+from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Load, System
@@ -277,16 +279,12 @@ def test_a_wrong_first_integrator_is_seen_where_modes_switch(
 @pytest.mark.mutant("a size by samples alone, which all may find the bodies where they pass zero")
 def test_samples_at_zeros_tell_no_size(tmp_path: Path) -> None:
     """Once a period, where it passes the origin: 2π rad/s, vx falls to zero at 0.25 s + k."""
-    text = """\
-scene:
-  gravity: none
-  points: {O: [-1, 0]}
-  bodies: {b: {particle: {mass: 1.0}}}
-  joints: {r: {slide: [ground.O, b.center], along: [1, 0]}}
-  forces: {s: {spring: [ground.O, b.center], stiffness: 39.47841760435743, rest_length: 1.0}}
-initial: {b: {x: 0, y: 0, vx: 0.3, vy: 0}}
-events: {top: {b.vx: falls to zero}}
-allow: {b.vx: 1.0e-3, top.time: 1.0e-3}
+    text = f"""\
+{RAILED}\
+  forces: {{s: {{spring: [ground.A, b.center], stiffness: 39.47841760435743, rest_length: 1.0}}}}
+initial: {{b: {{x: 0, y: 0, vx: 0.3, vy: 0}}}}
+events: {{top: {{b.vx: falls to zero}}}}
+allow: {{b.vx: 1.0e-3, top.time: 1.0e-3}}
 """
     assert solve(scenes.typed(tmp_path, text, tail=scenes.tail(5.0, 11))).holds
 
@@ -295,15 +293,31 @@ allow: {b.vx: 1.0e-3, top.time: 1.0e-3}
 @pytest.mark.mutant("a rate that drifts from its drive, taken for power that is missing")
 def test_a_long_drive_keeps_its_balance_of_power(tmp_path: Path) -> None:
     """Its rate is integrated: what it drifts by is judged as drift, and is no power."""
-    text = """\
-scene:
-  gravity: none
-  points: {O: [0, 0]}
-  bodies: {b: {particle: {mass: 1.0}}}
-  joints: {r: {slide: [ground.O, b.center], along: [1, 0]}}
-  drive: {r.speed: {sine: {amplitude: 1.0, angular_frequency: 10.0}}}
-initial: {r: {shift: 0}}
-allow: {b.x: 1.0e-3, b.vx: 1.0e-3}
+    text = f"""\
+{RAILED}\
+  drive: {{r.speed: {{sine: {{amplitude: 1.0, angular_frequency: 10.0}}}}}}
+initial: {{r: {{shift: 0}}}}
+allow: {{b.x: 1.0e-3, b.vx: 1.0e-3}}
 """
     for duration, samples in ((60.0, 13), (240.0, 3)):
         assert solve(scenes.typed(tmp_path, text, tail=scenes.tail(duration, samples))).holds
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("g of a drive by 1 + 1e-9, taken for the drift of its rate")
+def test_another_drive_is_no_drift(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {b: {bar: {mass: 1.0, length: 1.0}}, c: {bar: {mass: 1.0, length: 0.7}}}
+  joints: {r: {pin: [ground.O, b.start]}, s: {pin: [b.end, c.start]}}
+  drive: {r.omega: {sine: {amplitude: 1.0, angular_frequency: 10.0}}}
+initial: {b: {angle: 0}, c: {angle: 0.3, omega: 1}}
+allow: {b.x: 1.0e-3, c.angle: 1.0e-3}
+"""
+    case = scenes.typed(tmp_path, text)
+    assert solve(case).holds
+    g = Multibody.g
+    monkeypatch.setattr(Multibody, "g", lambda self, t, q: (1 + 1e-9) * np.asarray(g(self, t, q)))
+    broken = [check.name for check in solve(case).checks if not check.holds]
+    assert "power balance (2.51)" in broken
