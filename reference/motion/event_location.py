@@ -126,6 +126,8 @@ def crossing(
     fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
     if fall is not None:
         left, at = points[fall - 1], points[fall]
+        if begins and fall == 1:
+            left = _risen(g, values[0], at)
     elif (bottom := _near(g, points[rise:], values[rise:], 1.0)) is not None:
         left, at = bottom
     else:
@@ -167,6 +169,15 @@ def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:
         if g(h / 2**k) > 0.0:
             return _root(g, h / 2**k, h / 2 ** (k - 1))
     return None if spent else 0.0
+
+
+def _risen(g: Callable[[float], float], begin: float, fallen: float) -> float:
+    """The last of ever shorter times at which g is more than it begins with; 0 without one.
+
+    What begins with a zero that rounding has made positive, rises and falls at once, as a rope just
+    let go between two blows, would else fall where nothing but its rounding does.
+    """
+    return next((at for k in range(1, HALVINGS) if g(at := fallen / 2**k) > begin), 0.0)
 
 
 def _near(

@@ -109,8 +109,14 @@ class Banded:
 
     def pulled(self, multipliers: Array) -> Array:
         """M⁻¹ f_bᵀ λ_b."""
-        pulls = self.by_mass * multipliers[self.band.row]
-        return _sums(self.band.column, pulls, len(self.band.M))
+        return _sums(self.band.column, self._each(multipliers), len(self.band.M))
+
+    def pulls(self, multipliers: Array) -> Array:
+        """Σ |M⁻¹ f_bᵀ λ_b|."""
+        return _sums(self.band.column, np.abs(self._each(multipliers)), len(self.band.M))
+
+    def _each(self, multipliers: Array) -> Array:
+        return self.by_mass * multipliers[self.band.row]
 
     def solve(self, right: Array) -> Array:
         """By the factor."""

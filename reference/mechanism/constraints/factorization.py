@@ -2,6 +2,8 @@
 
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+
 from ... import lapack
 from ...system import Array
 
@@ -30,6 +32,10 @@ class Held(Protocol):
         """M⁻¹ f_bᵀ λ_b (n,): what the multipliers (r,) accelerate."""
         ...
 
+    def pulls(self, multipliers: Array) -> Array:
+        """Σ |M⁻¹ f_bᵀ λ_b| (n,): the sizes of what each multiplier accelerates alone."""
+        ...
+
     def solve(self, right: Array) -> Array:
         """The multipliers λ (r,) with f_a M⁻¹ (f_bᵀ λ_b) = right (r,)."""
         ...
@@ -51,6 +57,10 @@ class Full(NamedTuple):  # made at every state: a frozen dataclass costs three t
     def pulled(self, multipliers: Array) -> Array:
         """M⁻¹ f_bᵀ λ_b."""
         return multipliers.dot(self.by_mass)
+
+    def pulls(self, multipliers: Array) -> Array:
+        """Σ |M⁻¹ f_bᵀ λ_b|."""
+        return np.abs(multipliers).dot(np.abs(self.by_mass))
 
     def solve(self, right: Array) -> Array:
         """By the factors."""

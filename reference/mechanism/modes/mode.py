@@ -175,7 +175,7 @@ class Multibody(Mode):
         for _ in range(self._turns):
             change = held.solve(held.gamma - held.along(a))
             a, multipliers = a + held.pulled(change), multipliers + change
-        return _at_rest(a, free), multipliers
+        return _at_rest(held, a, free, multipliers), multipliers
 
     def applied(self, t: float, q: Array, v: Array) -> Array:
         """(2.23), (2.60) Q: weights, forces and the friction of slides that move, (n,).
@@ -303,10 +303,13 @@ def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
         found[name] = found.get(name, 0.0) + value
 
 
-def _at_rest(a: Array, free: Array) -> Array:
+def _at_rest(held: Held, a: Array, free: Array, multipliers: Array) -> Array:
     """Accelerations, and zero where forces cancel to rounding: what is held rests.
 
     Otherwise a body that sticks at the origin would tremble by 1e-17, which is no size for a step.
+    The forces may all be multipliers: of a block between two that stick to it.
     """
-    a[np.abs(a) <= CANCELS * np.abs(free)] = 0.0
+    size = np.abs(a)
+    if ((size <= CANCELS * np.abs(free).max()) & (size > 0.0)).any():
+        a[size <= CANCELS * (np.abs(free) + held.pulls(multipliers))] = 0.0
     return a

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from given import random_scenes, scenes
 
+from textmech.cases.mistake import CaseError
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -18,6 +19,7 @@ from textmech.cases.scene import (
     shape,
 )
 from textmech.reference.formalisms import lagrange
+from textmech.reference.mechanism.constraints.factorization import Full
 from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.mechanism.modes.smooth import SmoothMultibody
 from textmech.reference.motion.follow import follow
@@ -119,3 +121,39 @@ allow: {block.x: 1.0e-3, guide.friction: 1.0e-2}
     motion = solve(scenes.typed(tmp_path, text, tail=scenes.tail(10.0, 101)))
     assert motion.holds
     assert np.all(motion.trajectory.states["block"][:, 0] == 0.0)
+
+
+STACKED = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {low: {rigid: {mass: 3.21, inertia: 1}}, top: {rigid: {mass: 3.27, inertia: 1}}}
+  joints:
+    r1: {slide: [ground.O, low.center], along: [1, 0], dry_friction: {kinetic: 4.8}}
+    r2: {slide: [low.center, top.center], along: [1, 0], dry_friction: {kinetic: 3.98}}
+  forces: {pull: {push: top.center, ramp: [10.0, 0]}}
+initial: {r1: {shift: 0, speed: 0}, r2: {shift: 0, speed: 0}}
+stays: [low.x]
+allow: {low.x: 1.0e-3, r2.shift: 1.0e-3}
+"""
+
+
+def test_what_two_slides_hold_at_zero_rests(tmp_path: Path) -> None:
+    """Nothing but friction acts on the lower one; the upper slips from t₀ = 0.398 s on.
+
+    x = 10 N/s (t − t₀)³/6 m.
+    """
+    motion = solve(scenes.typed(tmp_path, STACKED, tail=scenes.tail(1.0, 41)))
+    assert motion.holds
+    slips = np.maximum(motion.trajectory.times - 0.398, 0.0)
+    x = motion.trajectory.states["top"][:, 0]
+    assert x == pytest.approx(10.0 * slips**3 / 6 / 3.27, abs=1e-14)
+
+
+@pytest.mark.mutant("what forces leave of no more than their rounding, beside applied ones alone")
+def test_rounding_that_moves_what_is_held_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Full, "pulls", lambda self, multipliers: 0.0)
+    with pytest.raises(CaseError, match="the steps shrink to nothing"):
+        solve(scenes.typed(tmp_path, STACKED, tail=scenes.tail(1.0, 41)))

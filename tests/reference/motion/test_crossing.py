@@ -104,9 +104,9 @@ def test_what_stays_clear_and_what_falls_is_no_touch():
 POINTS = [0.0, 0.25, 0.5, 0.75, 1.0]
 
 
-def found(g: Callable[[float], float], **how: bool) -> float | None:
-    how = {"begins": False, "spent": False} | how
-    return crossing(g, POINTS, [g(at) for at in POINTS], **how)[0]
+def found(g: Callable[[float], float], h: float = 1.0, **how: bool) -> float | None:
+    how, points = {"begins": False, "spent": False} | how, [h * at for at in POINTS]
+    return crossing(g, points, [g(at) for at in points], **how)[0]
 
 
 def dips(a: float, b: float) -> Callable[[float], float]:
@@ -168,3 +168,25 @@ def test_a_fall_at_once_that_is_passed_over_is_seen():
 def test_a_dip_that_is_not_looked_for_is_seen(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(module, "_near", lambda *given: None)
     assert found(dips(0.3, 0.45)) is None
+
+
+def let_go(t: float) -> float:
+    """What is left [m] of a rope of 0.5 m that begins to part at 2e-6 m/s, and is taut at 1e-5 s.
+
+    As it is computed it is too short by an ulp of its length at first, and for picoseconds.
+    """
+    return ((0.5 + 2e-6 * t * (1 - t / 1e-5)) - 0.5) + 1.1e-16 * (t < 1e-12)
+
+
+def test_a_zero_that_is_rounded_up_begins_and_does_not_fall():
+    assert found(let_go, begins=True, h=4e-4) == pytest.approx(1e-5, rel=1e-3)
+    assert found(lambda t: 1e-16 - t, begins=True, h=4e-4) == pytest.approx(0.0, abs=TOGETHER)
+    assert found(lambda t: 1e-6 - t, begins=True, h=4e-4) == pytest.approx(1e-6, abs=TOGETHER)
+
+
+@pytest.mark.mutant("a zero that rounding has made positive, and that rises first, falls at once")
+def test_a_rise_that_is_not_looked_for_is_seen():
+    points = [4e-4 * t for t in POINTS]
+    given = (let_go, points, [let_go(t) for t in points])
+    blind = otherwise(module, "if begins and fall == 1:", "if False:")
+    assert blind.crossing(*given, begins=True, spent=False)[0] < 1e-10
