@@ -9,6 +9,7 @@ import pytest
 from given import scenes, written_scenes
 from given.refused import refused
 from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
+from scipy.integrate import solve_ivp
 
 from textmech.cases.mistake import CaseError
 from textmech.reference import refusal
@@ -53,6 +54,33 @@ def test_a_spring_that_loses_its_length_on_the_way(tmp_path: Path) -> None:
     assert mistake.where == "duration"
     t = np.arccos(-0.5 / 1.5) / np.sqrt(3 / 0.7)
     assert f"beyond t = {t:.4g} s: coil has no length there" in mistake.what
+
+
+MUSCLE = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {c: {particle: {mass: 1}}}
+  joints: {rail: {slide: [ground.O, c.center], along: [1, 0]}}
+  forces:
+    calf: {linear_muscle: [ground.O, c.center], isometric: 1, damping: 5, series_stiffness: 20,
+           parallel_stiffness: 0, rest_length: 0.2, contractile_length: 0.2}
+initial: {c: {x: 0.2, vx: -3}}
+allow: {c.x: 1.0e-2}
+"""
+
+
+@pytest.mark.parametrize("samples", [3, 11])
+@pytest.mark.mutant("a muscle that goes through its own length 0")
+def test_a_muscle_that_loses_its_length_on_the_way(samples: int, tmp_path: Path) -> None:
+    """With u = 0.2 m + w, ẍ = −20 (x − u), u̇ = −(1 − 20 (x − u))/5: x is zero after 67.56 ms."""
+    mistake = refused(scenes.typed(tmp_path, MUSCLE, tail=scenes.tail(0.2, samples)))
+    assert mistake.where == "duration"
+    w = solve_ivp(
+        lambda t, y: (y[1], -20 * (y[0] - y[2]), -(1 - 20 * (y[0] - y[2])) / 5),
+        (0.0, 0.2), (0.2, -3.0, 0.2), events=lambda t, y: y[0], rtol=1e-10, atol=1e-12,
+    )  # fmt: skip
+    assert f"beyond t = {w.t_events[0][0]:.4g} s: calf has no length there" in mistake.what
 
 
 @pytest.mark.slow

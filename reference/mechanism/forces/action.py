@@ -34,7 +34,7 @@ from ..kinematics.frame import Vec, back, carried
 from ..kinematics.kinematics import Kinematics, Part, Point
 from .turning import Turn, turn_of
 
-SHORT = 1e-9  # of the rest length: a motion that comes so close would not miss zero but by rounding
+SHORT = 1e-9  # of its own length: a motion that comes so close would not miss zero but by rounding
 NOISE = 1e-12  # of the speed at the start: what is left of one that falls to zero, or less
 
 Load = tuple[Part, Vec | None, Vec | None]
@@ -220,7 +220,7 @@ class Contracted(Lined):
 
     def loads(self, k: Kinematics) -> list[Load]:
         """c_s (λ − u) + c_p (λ − λ₀) along Δ on the first end."""
-        length = self.directed(k)
+        length = self.directed(k, SHORT * self.force.begins)
         beside = self.force.parallel_stiffness * (length - self.force.rest_length)
         return pulled(k, *self.ends(k), self.gap(k) * ((self._series(k) + beside) / length))
 

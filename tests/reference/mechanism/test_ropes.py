@@ -146,7 +146,8 @@ def test_a_rope_that_is_let_go_is_not_taut_at_once(tmp_path: Path) -> None:
     text = """\
 scene:
   points: {A: [-0.204, 1.0], B: [0.183, 1.0]}
-  bodies: {b: {rigid: {mass: 1.4, inertia: 0.2834}, points: {L: [-0.324, 0.082], R: [0.303, 0.082]}}}
+  bodies:
+    b: {rigid: {mass: 1.4, inertia: 0.2834}, points: {L: [-0.324, 0.082], R: [0.303, 0.082]}}
   forces:
     l: {rope: [ground.A, b.L], length: 0.5142}
     r: {rope: [ground.B, b.R], length: 0.5142}
