@@ -16,6 +16,7 @@ from ...cases.language.document import read
 from ...cases.load import load
 from ...cases.mistake import CaseError, Mistake, nearest
 from ...engines.engine import Engine
+from ...reference.integrators.now import doing
 from ...reference.systems import SYSTEMS
 from ...reference.systems.states.stated import STATED
 from ..data.user_settings import SUFFIXES, read_settings
@@ -226,10 +227,12 @@ def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
     offers: dict[str, tuple[str, ...]] = {}
     for name in engines.names():
         if not asked or name in asked:
+            doing(f"importing {name}")
             try:
                 offers[name] = engines.settings(name)
             except engines.Broken as broken:
                 _lost(name, broken, asked=bool(asked))
+    doing("")
     return offers
 
 

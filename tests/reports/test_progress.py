@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from textmech.reference.integrators import now
+from textmech.reports.batch import selection
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import passing
 from textmech.reports.batch.task_results import Results
@@ -98,6 +99,20 @@ def test_what_takes_long_has_a_line_that_moves(
     said = capsys.readouterr().err
     assert "swing: the motion, at 2.5 of 10 s, about 1:3" in said
     assert "swing: the motion, at 5 of 10 s" in said
+
+
+def test_an_engine_whose_import_takes_long_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    heard: list[str] = []
+
+    def settings(name: str) -> tuple[str, ...]:
+        heard.append(now.NOW.line())
+        return ("shipped",)
+
+    now.begun("")
+    monkeypatch.setattr(selection.engines, "settings", settings)
+    selection._offers({"pymunk"})
+    assert heard == ["importing pymunk"]
+    assert now.NOW.line() == ""
 
 
 @pytest.mark.slow
