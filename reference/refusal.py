@@ -8,7 +8,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
-import numpy as np
 from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
@@ -25,10 +24,7 @@ from .mechanism.modes.mechanism import BadStart, Mechanism
 from .mechanism.modes.mode_selection import Undetermined
 from .motion.stuck import Stuck
 from .motion.zeno import ZenoError
-from .start.assembly import size_of
-from .start.closure import Closure
-from .start.search import rank
-from .start.space.closure import SpatialClosure
+from .start.assembly import closure_of, size_of
 from .system import Array, Pose
 
 MOST = cost.LIMIT  # s: the largest shipped case takes 8
@@ -157,15 +153,7 @@ def _constraint(case: Case, q: Array) -> str | None:
 
 def _dependent(case: Case, q: Array) -> str | None:
     """The first part that holds what others nearly hold already."""
-    if case.scene.frame is SPACE:
-        return SpatialClosure(case, case.scene).dependent(q, DEPENDENT)
-    closure = Closure(case)
-    rows = np.zeros((0, closure.n))
-    for c in closure.parts:
-        rows = np.vstack([rows, closure.rows([c], q)])
-        if rank(rows, DEPENDENT) < len(rows):
-            return c.part
-    return None
+    return closure_of(case).dependent(q, DEPENDENT)
 
 
 def _uneven(case: Case) -> str:

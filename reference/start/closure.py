@@ -1,263 +1,414 @@
-"""The equations that the positions at the start satisfy, and what the case gives of them.
+"""The equations of a start, in the plane and in space: what is held, and what a case gives.
 
-Lengths are counted in the mechanism's size, so that a watch and a crane are treated alike.
+A body's coordinates that are given are no unknowns; the places of points and the coordinates of
+joints are equations. Lengths are counted in the mechanism's size, so that a watch and a crane are
+treated alike.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...cases.case import Case, Placement
-from ...cases.scene import Anchor, Joint, Signal, Vector
-from ...cases.scene.joint import Freedom
-from ...cases.scene.pair import Pair
-from ...cases.scene.plane import LEVEL
-from ..mechanism.constraints.constraint import Constraint, tracked
-from ..mechanism.constraints.constraint_terms import (
-    FIRST,
-    SECOND,
-    Along,
-    Given,
-    Line,
-    Term,
-    Turning,
-)
+from ...cases.scene import Anchor
+from ...cases.scene.joint import Freedom, Joint
+from ..mechanism.constraints.constraint import Constraint, residuals, tracked
+from ..mechanism.constraints.constraint_terms import FIRST, SECOND, Line
 from ..mechanism.constraints.equation_table import Table
-from ..mechanism.constraints.joint_constraints import constraints, gliding
-from ..mechanism.kinematics.coordinates import Coordinates
-from ..mechanism.modes.unilateral import along, apart
+from ..mechanism.constraints.joint_constraints import constraints
 from ..system import Array
-
-POSITIONS = {"x": 0, "y": 1, "angle": 2}
-FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
-RATES = {"vx": 0, "vy": 1, "omega": 2}
+from .messages import DEGREES
+from .search import CLOSED, least, rank
 
 
-class Lock(NamedTuple):
-    """φ_b − φ_a = angle [rad]: the columns of the angles, None on the ground."""
+class Equation(NamedTuple):
+    """What is said of a start: residual = 0 [m or rad], and its change with the velocities (n,).
 
-    a: int | None
-    b: int | None
-    angle: float
+    Of a rate: row · v = −residual. name: as a file has it; the components of a point share one.
+    """
+
+    name: str
+    residual: float
+    row: Array
+    angular: bool = False
+
+
+class Coordinate(NamedTuple):
+    """One freedom of a joint: its value [m or rad]; its rate is row · v + beside."""
+
+    freedom: Freedom
+    value: float
+    row: Array
+    beside: float
+
+
+class Rows(NamedTuple):
+    """Rows (r, n) of f_a v = g (2.15) and g (r,), in units of the size, with their owners."""
+
+    rows: Array
+    g: Array
+    names: list[str]
+
+    def those(self, which: NDArray[np.bool_]) -> "Rows":
+        """Some of them."""
+        names = [name for name, is_one in zip(self.names, which, strict=True) if is_one]
+        return Rows(self.rows[which], self.g[which], names)
+
+    def about(self, columns: Sequence[int]) -> "Rows":
+        """Those that concern any of these velocities."""
+        return self.those(np.any(self.rows[:, columns] != 0.0, axis=1))
+
+    def with_(self, more: "Rows") -> "Rows":
+        """And others."""
+        return Rows(
+            np.vstack([self.rows, more.rows]), np.append(self.g, more.g), self.names + more.names
+        )
+
+    def off(self, v: Array) -> Array:
+        """What v leaves of them."""
+        return self.rows @ v - self.g
+
+    def violated(self, v: Array) -> bool:
+        """Whether that is more than rounding."""
+        largest = np.max(np.abs(self.rows * v), initial=0.0)
+        scale = max(largest, np.max(np.abs(self.g), initial=0.0))
+        return bool(np.max(np.abs(self.off(v)), initial=0.0) > CLOSED * scale)
+
+    def solved(self, v: Array, free: Sequence[int]) -> Array:
+        """v with the smallest change of its free columns; once more of what rounding has left."""
+        v = v.copy()
+        for _ in range(2):
+            v[free] -= least(self.rows[:, free], self.off(v))
+        return v
 
 
 class Closure:
-    """Residuals f (2.14) of the joints, contacts and placed points of one case at t = 0."""
+    """Residuals f (2.14) of all that holds, and of what is given, of one case at t = 0.
 
-    def __init__(self, case: Case) -> None:
-        self.case = case
-        self.where = Coordinates(case.scene)
-        self.n = len(self.where.names)
+    n: the number of velocities; the unknowns are the `free` ones among them. given: what the case
+    gives of q, by its place there.
+    """
+
+    where: Any  # coordinates in the plane or in space
+    standing: Sequence[str] = ()  # the points that are not to move
+
+    def __init__(self, case: Case, where: Any) -> None:
+        self.case, self.scene, self.where = case, case.scene, where
+        self.turning, self.n = where.turning, len(where.turning)
         self._tables: dict[tuple[int, ...], Table] = {}
-        self.parts = constraints(case.scene, self.where)
-        self.placed = placed(case.initial)
-        self.places = [c for c in self.parts if c.holonomic]  # C₁ of (2.17) is free
-        self.places += [_at(anchor, place, self.where) for anchor, place in self.placed]
-        standing = [Anchor(b, point) for b, p in case.initial.items() for point in p.on]
-        self.places += [_on_plane(anchor, self.where) for anchor in standing]
-        self.posed = list(posed(case, self.where))
-        self.places += self.posed
-        self.gliding = [
-            gliding(edge, speed, self.where)
-            for name, edge in case.scene.constraints.items()
-            if name in case.initial and (speed := case.initial[name].given.get("speed")) is not None
-        ]
-        self.gliding += moving(case, self.where)
-        self.still = [part for anchor in standing for part in _still(anchor, self.where)]
-        self.locks = [lock for c in (*self.parts, *self.posed) for lock in self._locks(c)]
-        self.given = held_angles(self.locks, self.numbers(case.initial, POSITIONS))
-        self.free = np.array([i for i in range(self.n) if i not in self.given], int)
-        self.turning = self.where.turning
+        self._tracked: dict[Any, Constraint] = {}
+        self.parts = constraints(case.scene, where)
+        places = [part.held or (None,) * part.size for part in self.parts]
+        self._places = np.array([at is not None for each in places for at in each], bool)
+        self.given, known = self.givens()
         self.reach = self._reach()
         self.size = self._size()
         self.rounding = max(1.0, self.reach / self.size)  # of places, in sizes
-        self.units = np.where(self.turning, 1.0, self.size)  # of the coordinates: rad, or lengths
+        self.units = np.where(self.turning, 1.0, self.size)  # of the velocities: rad, or lengths
+        self.free = np.array([i for i in range(self.n) if i not in known], int)
 
-    def numbers(
-        self, placements: Mapping[str, Placement], fields: Mapping[str, int]
-    ) -> dict[int, float]:
-        """The values of `fields` that are given, by their column in q or v."""
-        return {
-            self.where.columns[body][0] + fields[key]: value
-            for body, placement in placements.items()
-            for key, value in placement.given.items()
-            if key in fields and body in self.where.columns
-        }
+    # What differs between the plane and space.
 
-    def equations(self, q: Array) -> tuple[Array, Array]:
-        """f = 0 in units of the mechanism's size: residuals (m,) and rows (m, n)."""
-        numbers = q.tolist()
-        residual = [entry for c in self.places for entry in self._residual(c, numbers)]
-        return np.array(residual), self.rows(self.places, q)
+    attitude_word: str  # the key by which a file gives an attitude
+
+    def givens(self) -> tuple[Mapping[int, float], Collection[int]]:
+        """What is given of q, by its place there, and the columns of v that it leaves no way."""
+        return self.said_of_bodies(self.case.initial), self.known(self.case.initial)
+
+    def attitude_of(self, placement: Placement) -> Sequence[float] | None:
+        """What a placement gives of an attitude, as q has it."""
+        raise NotImplementedError
+
+    def turned(self, wanted: Sequence[float], q: Array, at: int) -> Sequence[float]:
+        """(s,) [rad] how far the attitude that stands in q at a place is turned from another."""
+        raise NotImplementedError
+
+    def turns(self, joint: Joint, q: Array) -> Iterator[Coordinate]:
+        """Yields the turns of a joint."""
+        raise NotImplementedError
+
+    def beside(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
+        """Yields what placements say besides coordinates and points."""
+        yield from ()
+
+    def refuse_rates(self, q: Array, v: Array) -> None:
+        """Raises CaseError for rates that are 0 where nobody says whose; v in units of the size."""
+
+    def rates_beside(self, q: Array) -> Iterator[Equation]:
+        """Yields the rates that the case gives besides those of bodies and freedoms."""
+        yield from ()
+
+    def resting(self, q: Array) -> Iterator[Equation]:
+        """Yields the rates that are to be 0 where nothing tells them, before all others."""
+        yield from ()
 
     def moved(self, q: Array, change: Array) -> Array:
-        """q after a change (n,)."""
-        return q + change
+        """q after a small move (n,)."""
+        raise NotImplementedError
 
     def settled(self, q: Array) -> Array:
-        """q with angles that nobody gave in (−π, π], or next to their guess; held ones follow."""
-        near = self.numbers(self.case.near, POSITIONS)
-        known = dict(self.given)
-        for i in self.free[self.turning[self.free]].tolist():
-            if i not in known:
-                base = near.get(i, 0.0)
-                turned = math.remainder(q[i] - base, math.tau)
-                known[i] = base + (turned if turned > FULL_TURN - math.pi else turned + math.tau)
-                known = held_angles(self.locks, known)
-        q = q.copy()
-        q[list(known)] = list(known.values())
-        return q
+        """q with its angles on the turns on which a start has them."""
+        raise NotImplementedError
 
     def apart(self, a: Array, b: Array) -> float:
         """The largest difference of two solutions, in sizes and rad."""
-        off = (a - b).tolist()
-        return max(abs(self.turned(i, x)) / self.units[i] for i, x in enumerate(off))
+        raise NotImplementedError
 
-    def turned(self, column: int, difference: float) -> float:
-        """The difference of two values of a coordinate, to whole turns of an angle."""
-        return math.remainder(difference, math.tau) if self.turning[column] else difference
+    # The equations of the positions.
 
-    def _residual(self, part: Constraint, q: list[float]) -> list[float]:
-        return [
-            math.remainder(f, math.tau) if angle else f / self.size  # a turn more is the same place
-            for f, angle in zip(part.f(0.0, q), part.angular, strict=True)
-        ]
+    def equations(self, q: Array) -> tuple[Array, Array]:
+        """f = 0 in units of the size: residuals (k,) and rows (k, n)."""
+        table = self._table(self.parts)
+        f = residuals(table, self.parts, 0.0, q.tolist())
+        told = list(self.told(self.case.initial, q))
+        angular = np.append(self._angular(self.parts)[self._places], [e.angular for e in told])
+        units = np.where(angular, 1.0, self.size)
+        rows = [self._rows(self.parts, q)[0][self._places], *(e.row[None] for e in told)]
+        off = zip([*f, *(e.residual for e in told)], angular.tolist(), strict=True)
+        return (  # a turn more is the same place
+            np.array([math.remainder(x, math.tau) if angle else x / self.size for x, angle in off]),
+            np.vstack(rows) * self.units / units[:, None],
+        )
 
-    def _locks(self, part: Constraint) -> Iterator[Lock]:
-        for angle, angular in zip(part.held or (), part.angular, strict=part.holonomic):
-            if angular and angle is not None:
-                a, b = (self.where.columns.get(end.body, (0, None))[1] for end in part.ends)
-                yield Lock(a, b, angle)
+    def owners(self, q: Array) -> list[tuple[str, bool]]:
+        """For each residual the part, or what is given, by its name; and whether it is an angle."""
+        names = [(c.part, angle) for c in self.parts for angle in c.angular]
+        held = [owner for owner, place in zip(names, self._places, strict=True) if place]
+        return [*held, *((e.name, e.angular) for e in self.told(self.case.initial, q))]
 
-    def rows(self, parts: Sequence[Constraint], q: Array) -> Array:
-        """The rows f_a (2.15) of some constraints in units of the size, (r, n)."""
-        return self.linear(parts, q)[0]
+    def told(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
+        """Yields what placements say of points, of joints, and besides."""
+        for name, placement in placements.items():
+            for point, place in placement.points.items():
+                rows, r = self.point(Anchor(name, point), q)
+                for at, wanted, row in zip(r.tolist(), place, rows, strict=True):
+                    yield Equation(f"{name}.{point}", at - wanted, row)
+            for c in self.placed(name, placement, q):
+                off = c.value - placement.given[c.freedom.name]
+                yield Equation(f"{name}.{c.freedom.name}", off, c.row, c.freedom.kind != "shift")
+        yield from self.beside(placements, q)
+
+    def placed(self, name: str, placement: Placement, q: Array) -> list[Coordinate]:
+        """The coordinates of a joint that a placement gives."""
+        joint = self.scene.joints.get(name)
+        if joint is None or not {freedom.name for freedom in joint.named} & placement.given.keys():
+            return []
+        return [c for c in self.coordinates(joint, q) if c.freedom.name in placement.given]
+
+    def coordinates(self, joint: Joint, q: Array) -> Iterator[Coordinate]:
+        """Yields each freedom of a joint that has a coordinate."""
+        axes = np.array([freedom.axis for freedom in joint.shifts])
+        duals = np.linalg.pinv(axes.T) if len(axes) else axes  # s_i of Δ = Σ s_i u_i
+        for freedom, dual in zip(joint.shifts, duals, strict=True):
+            key = joint.name, freedom
+            if key not in self._tracked:
+                row, ends = (Line(FIRST, SECOND, tuple(dual.tolist())),), (joint.a, joint.b)
+                at = Constraint(joint.name, ends, (row,), ((),), (0.0,), self.where)
+                self._tracked[key] = at
+            rows, g, _ = self._tracked[key].alone.rows(0.0, q, np.zeros(self.n))
+            (value,) = self._tracked[key].places(0.0, q.tolist())
+            yield Coordinate(freedom, float(value), rows[0], -float(g[0]))
+        yield from self.turns(joint, q)
+
+    def point(self, anchor: Anchor, q: Array) -> tuple[Array, Array]:
+        """(d, n) the rows of a point's velocity, and its place (d,)."""
+        if anchor not in self._tracked:
+            self._tracked[anchor] = tracked(anchor, self.where)
+        point = self._tracked[anchor]
+        rows, _, _ = point.alone.rows(0.0, q, np.zeros(self.n))
+        return rows, np.array(point.places(0.0, q.tolist()))
+
+    # What is said of bodies by themselves.
+
+    def said_of_bodies(self, placements: Mapping[str, Placement]) -> dict[int, float]:
+        """The coordinates that are given of bodies, by their places in q."""
+        found: dict[int, float] = {}
+        for name, placement in self._bodies(placements):
+            at = self.where.slots[name]
+            for i, axis in enumerate(self.scene.frame.axes):
+                if axis in placement.given:
+                    found[at.r + i] = placement.given[axis]
+            e = self.attitude_of(placement)
+            if e is not None and at.attitude is not None:
+                found |= {at.attitude + i: x for i, x in enumerate(e)}
+        return found
+
+    def known(self, placements: Mapping[str, Placement]) -> set[int]:
+        """The columns of v along which placements leave a body no way."""
+        found: set[int] = set()
+        for name, placement in self._bodies(placements):
+            at = self.where.slots[name]
+            axes = enumerate(self.scene.frame.axes)
+            found |= {at.r_dot + i for i, axis in axes if axis in placement.given}
+            if self.attitude_of(placement) is not None and at.omega is not None:
+                found |= {at.omega + i for i in range(self.where.frame.turns)}
+        return found
+
+    def _bodies(self, placements: Mapping[str, Placement]) -> Iterator[tuple[str, Placement]]:
+        yield from ((name, p) for name, p in placements.items() if name in self.where.slots)
+
+    def with_given(self, q: Array) -> Array:
+        """q with what is given in its place."""
+        q = q.copy()
+        q[list(self.given)] = list(self.given.values())
+        return q
+
+    # How far a start is from what is near, and what it has instead.
+
+    def off(self, q: Array, *, turns: bool = False) -> dict[str, float]:
+        """How far q is from all that `near` says, by name, in rad or sizes.
+
+        turns: whether whole ones count, which what is given elsewhere may hold.
+        """
+        found: dict[str, float] = {}
+        for name, off, angular in self._said_near(q):
+            size = (off if turns else math.remainder(off, math.tau)) if angular else off / self.size
+            found[name] = math.hypot(found.get(name, 0.0), size)
+        return found
+
+    def _said_near(self, q: Array) -> Iterator[tuple[str, float, bool]]:
+        near = self.case.near
+        for name, placement in self._bodies(near):
+            at = self.where.slots[name]
+            for i, axis in enumerate(self.scene.frame.axes):
+                if axis in placement.given:
+                    yield f"{name}.{axis}", float(q[at.r + i]) - placement.given[axis], False
+            e = self.attitude_of(placement)
+            if e is not None and at.attitude is not None:
+                for turned in self.turned(e, q, at.attitude):
+                    yield f"{name}.{self.attitude_word}", turned, True
+        yield from ((e.name, e.residual, e.angular) for e in self.told(near, q))
+
+    def distance(self, q: Array) -> float:
+        """How far q is from the worst of what `near` says, in rad or sizes; 0 without any."""
+        return max(self.off(q).values(), default=0.0)
+
+    def shown(self, q: Array, name: str) -> str:
+        """The value that q has of a coordinate, or of a point, as a file has it."""
+        part, _, field = name.partition(".")
+        if part in self.scene.joints:
+            found = self.coordinates(self.scene.joints[part], q)
+            return next(
+                value_text(c.value, c.freedom.kind) for c in found if c.freedom.name == field
+            )
+        if field in self.scene.frame.axes:
+            at = self.where.slots[part].r + self.scene.frame.axes.index(field)
+            return value_text(float(q[at]), "shift")
+        _, place = self.point(Anchor(part, field), q)
+        return f"[{', '.join(f'{x:.4g}' for x in place)}]"
+
+    # The rows of the velocities.
+
+    def velocities(self, q: Array) -> Rows:
+        """What is held and given; but for the rates of bodies, which are no unknowns."""
+        names = [c.part for c in self.parts for _ in range(c.size)]
+        told = [*self._rates_of_joints(q), *self.rates_beside(q)]
+        return Rows(*self.linear(self.parts, q), names).with_(self.scaled(told))
+
+    def scaled(self, told: Sequence[Equation]) -> Rows:
+        """The rows of rates."""
+        units = np.where([e.angular for e in told], 1.0, self.size)
+        rows = np.array([e.row for e in told]).reshape(-1, self.n) * self.units / units[:, None]
+        return Rows(rows, -np.array([e.residual for e in told]) / units, [e.name for e in told])
+
+    def given_rates(self) -> dict[int, float]:
+        """The velocities that are given of bodies, by their columns in v."""
+        columns = {name: i for i, name in enumerate(self.where.rate_names)}
+        return {
+            columns[f"{name}.{word}"]: value
+            for name, placement in self._bodies(self.case.initial)
+            for word, value in placement.given.items()
+            if f"{name}.{word}" in columns
+        }
+
+    def _rates_of_joints(self, q: Array) -> Iterator[Equation]:
+        for name, placement in self.case.initial.items():
+            joint = self.scene.joints.get(name)
+            if joint is not None and joint.rates.keys() & placement.given.keys():
+                yield from (
+                    e._replace(residual=e.residual - placement.given[rate])
+                    for rate, e in self.rates(joint, q).items()
+                    if rate in placement.given
+                )
+
+    def rates(self, joint: Joint, q: Array) -> dict[str, Equation]:
+        """The equations that the rates of its freedoms with names are zero, by these."""
+        return {
+            f.rate: Equation(f"{joint.name}.{f.rate}", beside, row, f.kind != "shift")
+            for f, _, row, beside in self.coordinates(joint, q)
+            if f.name
+        }
 
     def linear(self, parts: Sequence[Constraint], q: Array) -> tuple[Array, Array]:
-        """The rows (r, n) and right sides g (r,) of f_a q̇ᵃ = g (2.15), in units of the size.
+        """The rows (r, n) and right sides g (r,) of f_a v = g (2.15), in units of the size.
 
         What a residual of 1 means: 1 rad for a held angle, else the mechanism's size [m].
         """
+        f, g = self._rows(parts, q)
+        units = np.where(self._angular(parts), 1.0, self.size)
+        return f * self.units / units[:, None], g / units
+
+    def dependent(self, q: Array, below: float) -> str | None:
+        """The first part, or drive, whose rows repeat what is held by those before it.
+
+        Singular values `below` of the largest are zero.
+        """
+        rows, _ = self.linear(self.parts, q)
+        owners = [part.source or part.part for part in self.parts for _ in range(part.size)]
+        held = np.zeros((0, self.n))
+        for part in dict.fromkeys(owners):
+            held = np.vstack([held, rows[[owner == part for owner in owners]]])
+            if rank(held, below) < len(held):
+                return part
+        return None
+
+    def columns(self, bodies: Collection[str]) -> list[int]:
+        """The columns of v that are of these bodies."""
+        return [i for i, name in enumerate(self.where.rate_names) if name.split(".")[0] in bodies]
+
+    def _rows(self, parts: Sequence[Constraint], q: Array) -> tuple[Array, Array]:
+        f, g, _ = self._table(parts).rows(0.0, q, np.zeros(self.n))
+        return f, g
+
+    def _table(self, parts: Sequence[Constraint]) -> Table:
         key = tuple(map(id, parts))
         if key not in self._tables:  # Newton asks for the same rows again and again
             self._tables[key] = Table(self.where, parts)
-        f, g, _ = self._tables[key].rows(0.0, q, np.zeros(self.n))
-        units = np.array([1.0 if angle else self.size for c in parts for angle in c.angular])
-        return f * self.units / units[:, None], g / units
+        return self._tables[key]
+
+    @staticmethod
+    def _angular(parts: Iterable[Constraint]) -> Array:
+        return np.array([angle for c in parts for angle in c.angular], bool)
 
     def _size(self) -> float:
         """The largest length [m] on a body, wherever the scene stands; without one, the reach."""
-        bodies = self.case.scene.bodies.values()
+        bodies = self.scene.bodies.values()
         lengths = [abs(x) for body in bodies for p in body.points.values() for x in p]
         lengths += [body.radius for body in bodies if body.radius]
-        lengths += [joint.length for joint in self.case.scene.joints.values() if joint.length]
-        return max(lengths) or self.reach
+        lengths += [joint.length for joint in self.scene.joints.values() if joint.length]
+        return max(lengths, default=0.0) or self.reach
 
     def _reach(self) -> float:
         """The largest given distance [m] from the origin: what rounding is relative to."""
-        lengths = [x for p in self.case.scene.points.values() for x in p.at]
-        lengths += [x for _, at in self.placed for x in at]
-        lengths += [x for i, x in self.given.items() if not self.turning[i]]
+        lengths = [x for p in self.scene.points.values() for x in p.at]
+        for placement in self.case.initial.values():
+            lengths += [x for key, x in placement.given.items() if key in self.scene.frame.axes]
+            lengths += [x for place in placement.points.values() for x in place]
         return max(map(abs, lengths), default=1.0) or 1.0
 
 
-def placed(placements: Mapping[str, Placement]) -> list[tuple[Anchor, tuple[float, float]]]:
-    """The points whose places are given."""
-    return [
-        (Anchor(body, point), at)
-        for body, placement in placements.items()
-        for point, at in placement.points.items()
-    ]
+def value_text(value: float, kind: str) -> str:
+    """A shift or a turn as a file has it."""
+    return f"{value:.4g} m" if kind == "shift" else f"{value * DEGREES:.4g} deg"
 
 
-def _at(anchor: Anchor, place: Vector, where: Coordinates) -> Constraint:
-    """r_P = place, for the search only: nothing holds the point there later."""
-    return replace(tracked(anchor, where), held=place)
-
-
-def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
-    """n·r_P = n·r₀ of the plane or face that it touches, or of the floor; for the search only."""
-    for pair in _pairs(anchor, where):
-        return apart(pair, where)
-    touching = (c.plane for c in where.scene.touching.values() if c.at == anchor)
-    plane = next(touching, LEVEL)
-    row, at = (Along(FIRST, plane.normal),), -plane.height(0.0, 0.0)
-    return Constraint(str(anchor), (anchor,), (row,), ((),), (at,), where)
-
-
-def _still(anchor: Anchor, where: Coordinates) -> list[Constraint]:
-    """Neither slips nor rises where it stands: on the ground, or on another body that may move."""
-    for pair in _pairs(anchor, where):
-        return [apart(pair, where), along(pair, where)]
-    return [_at(anchor, (0.0, 0.0), where)]
-
-
-def _pairs(anchor: Anchor, where: Coordinates) -> list[Pair]:
-    return [pair for pair in where.scene.pairs.values() if pair.at == anchor]
-
-
-def held_angles(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:
-    """The known angles, and those that slides and welds hold against them, on the same turn."""
-    found = dict(known)
-    for _ in locks:  # the longest chain
-        for lock in locks:
-            a = 0.0 if lock.a is None else found.get(lock.a)
-            b = 0.0 if lock.b is None else found.get(lock.b)
-            if lock.b is not None and b is None and a is not None:
-                found[lock.b] = a + lock.angle
-            elif lock.a is not None and a is None and b is not None:
-                found[lock.a] = b - lock.angle
-    return found
-
-
-# The start of joints: places and rates of the second part against the first, where given.
-#
-# They hold at the start only.
-
-
-Row = tuple[Term, ...]
-
-
-def posed(case: Case, where: Coordinates) -> Iterator[Constraint]:
-    """φ_B − φ_A = angle, u·(r_B − r_A) = shift."""
-    for joint, freedom in _freedoms(case):
-        given = case.initial[joint.name].given
-        if freedom.name in given:
-            row, place = difference(freedom), given[freedom.name]
-            yield Constraint(joint.name, (joint.a, joint.b), (row,), ((),), (place,), where)
-
-
-def moving(case: Case, where: Coordinates) -> Iterator[Constraint]:
-    """ω_B − ω_A = omega, d/dt u·(r_B − r_A) = speed."""
-    for joint, freedom in _freedoms(case):
-        rate = case.initial[joint.name].given.get(freedom.rate)
-        if rate is not None:
-            row = difference(freedom)
-            given = Given(Signal("constant", (rate,)), angular=row[0].angular)
-            yield Constraint(joint.name, (joint.a, joint.b), ((*row, given),), ((),), None, where)
-
-
-def silent(case: Case, where: Coordinates) -> Iterator[Constraint]:
-    """ω_B − ω_A and d/dt u·(r_B − r_A) of joints that give the place of these, and not the rate."""
-    for joint, freedom in _freedoms(case):
-        given = case.initial[joint.name].given
-        if freedom.name in given and freedom.rate not in given:
-            row = difference(freedom)
-            yield Constraint(joint.name, (joint.a, joint.b), (row,), ((),), None, where)
-
-
-def _freedoms(case: Case) -> Iterator[tuple[Joint, Freedom]]:
-    """Yields the freedoms that have names, of the joints by which a part starts."""
-    for joint in case.scene.joints.values():
-        if joint.name in case.initial:
-            yield from ((joint, freedom) for freedom in joint.rates.values())
-
-
-def difference(freedom: Freedom) -> Row:
-    """φ_B − φ_A, or u·(r_B − r_A) with u fixed in the first part."""
-    if freedom.kind == "shift":
-        return (Line(FIRST, SECOND, freedom.axis),)
-    return Turning(SECOND), Turning(FIRST, -1.0)
+def joined(names: Iterable[str], links: Iterable[set[str]]) -> list[set[str]]:
+    """The names in groups: two of one link are in one."""
+    groups = [{name} for name in names]
+    for link in links:
+        met = [group for group in groups if group & link]
+        groups = [group for group in groups if not group & link] + [set().union(*met)]
+    return groups

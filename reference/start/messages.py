@@ -1,9 +1,11 @@
-"""Why a start is refused: the words that the plane and space share, at their places in the file."""
+"""Why a start is refused, in words, at their places in the file."""
 
 import math
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError
+from ...cases.scene.frame import SPACE
+from ...cases.scene.joint import Joint
 
 DEGREES = 180 / math.pi
 
@@ -58,18 +60,60 @@ def dead_centre(case: Case, names: list[str]) -> CaseError:
     )
 
 
-def dependent(case: Case, section: str, part: str, such: str = "") -> CaseError:
-    """A constraint that repeats what others hold; such: for instance, what holds less."""
-    return CaseError(
-        [
-            case.mistake(
-                ("scene", section, part),
-                "the constraints are not independent: what this one holds is held by the others "
-                "already, for good or in this position, so its reaction has no single value; "
-                f"leave it out, replace it by one that holds less{such}, or start elsewhere",
-            )
-        ]
+def dependent(case: Case, part: str) -> CaseError:
+    """A joint, contact, constraint or drive that repeats what others hold."""
+    scene = case.scene
+    sections = {"joints": scene.joints, "contacts": scene.contacts, "drive": scene.drives}
+    section = next((key for key, parts in sections.items() if part in parts), "constraints")
+    such = " (a ball, a universal joint)" if scene.frame is SPACE and section == "joints" else ""
+    what = (
+        "the constraints are not independent: what this one holds is held by the others "
+        "already, for good or in this position, so its reaction has no single value; "
+        f"leave it out, replace it by one that holds less{such}, or start elsewhere"
     )
+    return CaseError([case.mistake(("scene", section, part), what)])
+
+
+def without_length(case: Case, rod: str) -> CaseError:
+    """A rod whose points start at one place."""
+    what = "has no length: its two points start at the same place, and it would have no direction"
+    return CaseError([case.mistake(("scene", "joints", rod), what)])
+
+
+def another_turn(case: Case, joint: str, off: float) -> CaseError:
+    """A joint's angle that is whole turns from that of its bodies; off [rad]: how far."""
+    given = case.initial[joint].given["angle"]
+    what = (
+        f"is {given:.6g} rad, but the bodies start {given + off:.6g} rad apart, which is another "
+        "turn: angles count their turns, so give both on the same one"
+    )
+    return CaseError([case.mistake(("initial", joint, "angle"), what)])
+
+
+def locked(case: Case, joint: Joint, angle: float) -> CaseError:
+    """Three turns, of which the first and the last are about one axis."""
+    first, middle, last = joint.turns
+    at = f"{joint.name}.{middle.name} = {angle * DEGREES:.4g} deg"
+    axes = f"{first.name!r} and {last.name!r} turn about one axis"
+    return initial(
+        case, f"at {at} {axes}, so that they determine nothing; start it by the body's `attitude`"
+    )
+
+
+def unreached(case: Case, joint: Joint) -> CaseError:
+    """Three turns about skew axes, which cannot make the attitude that is given."""
+    names = ", ".join(repr(turn.name) for turn in joint.turns)
+    return initial(
+        case,
+        f"the turns {names} of {joint.name} cannot make the attitude at which it starts; write a "
+        "ball, or axes of which each is at right angles to the one before it",
+    )
+
+
+def flat(case: Case) -> CaseError:
+    """A rim that lies on the floor."""
+    rims = ", ".join(name for name, contact in case.scene.contacts.items() if contact.rim)
+    return initial(case, f"{rims}: a disk that lies flat has no lowest point; start it tilted")
 
 
 def rates_violate(case: Case, part: str) -> CaseError:

@@ -3,7 +3,7 @@
 Residuals are counted in rad and in the mechanism's size, so that a watch and a crane are alike.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -70,6 +70,11 @@ def search(
             ways.append(q)
     assert nearest is not None
     return ways, nearest
+
+
+def least_of(ways: Sequence[Array], sizes: Sequence[float], same: float) -> list[Array]:
+    """The ways of the smallest size, up to what is the same."""
+    return [q for q, size in zip(ways, sizes, strict=True) if size < min(sizes) + same]
 
 
 def newton(closure: Closing, q: Array) -> tuple[Array, float]:

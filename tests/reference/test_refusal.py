@@ -80,6 +80,7 @@ def test_a_muscle_that_loses_its_length_on_the_way(samples: int, tmp_path: Path)
         lambda t, y: (y[1], -20 * (y[0] - y[2]), -(1 - 20 * (y[0] - y[2])) / 5),
         (0.0, 0.2), (0.2, -3.0, 0.2), events=lambda t, y: y[0], rtol=1e-10, atol=1e-12,
     )  # fmt: skip
+    assert w.t_events is not None
     assert f"beyond t = {w.t_events[0][0]:.4g} s: calf has no length there" in mistake.what
 
 

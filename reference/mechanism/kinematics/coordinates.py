@@ -47,6 +47,13 @@ class Coordinates(Layout):
                 yield f"{body.name}.angle"
 
     @cached_property
+    def rate_names(self) -> tuple[str, ...]:
+        """The velocity at each place of v: `crank.vx`, `crank.omega`."""
+        words = {"x": "vx", "y": "vy", "angle": "omega"}
+        parts = (name.rpartition(".") for name in self.names)
+        return tuple(f"{body}.{words[field]}" for body, _, field in parts)
+
+    @cached_property
     def inner(self) -> dict[str, int]:
         """Where the inner states of forces stand, behind the bodies' coordinates."""
         return {name: len(self.names) + i for i, name in enumerate(self.scene.inner())}

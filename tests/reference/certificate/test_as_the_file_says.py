@@ -27,8 +27,8 @@ from textmech.reference.mechanism.kinematics.kinematics import Kinematics
 from textmech.reference.start import assembly
 from textmech.reference.start import positions as start_positions
 from textmech.reference.start.closure import Closure
-from textmech.reference.start.space import initial_conditions as space_given
-from textmech.reference.start.space import positions as space_positions
+from textmech.reference.start.planar_closure import PlanarClosure
+from textmech.reference.start.spatial_closure import SpatialClosure
 
 DRIVES, POINTS, FORCES = (
     f"{what} their laws" for what in ("drives follow", "driven points follow", "forces follow")
@@ -131,7 +131,7 @@ def test_the_quadrature_of_a_fast_sine() -> None:
 
 
 EDGED, DRIVEN = permanent.edged, Kinematics._driven
-RELATIVE, UNTURNED = space_given.Given.relative, permanent._unturned
+RELATIVE, UNTURNED = SpatialClosure.relative, permanent._unturned
 
 
 def else_a_sine(given: Given, k: Kinematics, ends: Any) -> Any:
@@ -174,7 +174,7 @@ def right_angled_drive(joint: Any, freedom: Any) -> Turn:
 def other_axes(self: Any, joint: Any, q: Any) -> Any:
     """ω of the first part in the axes of the wrong one."""
     rows = RELATIVE(self, joint, q)
-    at = self.mode.where.slots["a"].omega
+    at = self.where.slots["a"].omega
     rows[:, at : at + 3] = rows[:, at : at + 3].T
     return rows
 
@@ -209,7 +209,7 @@ WRONG: dict[str, tuple[Any, str, Any, str, str]] = {
         action.Driven, "loads", larger(action.Driven.loads), IN_SPACE, FORCES,
     ),
     "rates between moving parts in the axes of the wrong part": (
-        space_given.Given, "relative", other_axes, IN_SPACE, STARTS,
+        SpatialClosure, "relative", other_axes, IN_SPACE, STARTS,
     ),
     "two skew axes of a joint held at right angles": (
         permanent, "_unturned", right_angled, IN_SPACE, JOINTS,
@@ -255,7 +255,7 @@ def test_a_start_on_another_turn_is_seen(tmp_path: Path, monkeypatch: pytest.Mon
     """Sines and cosines are the same, and all answers are, too."""
     sound = start_positions.positions
 
-    def turned(closure: Closure) -> Any:
+    def turned(closure: PlanarClosure) -> Any:
         return sound(closure) - math.tau * closure.turning
 
     monkeypatch.setattr(assembly, "positions", turned)
@@ -277,8 +277,8 @@ allow: {upper.angle: 1.0e-2}
 @pytest.mark.mutant("of two ways to assemble the farther one from `near`")
 def test_the_other_way_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert checks(tmp_path, ELBOW)[NEAR].difference < 0.2
-    sound = start_positions._Near.distance
-    monkeypatch.setattr(start_positions._Near, "distance", lambda self, q: 3.0 - sound(self, q))
+    sound = Closure.distance
+    monkeypatch.setattr(Closure, "distance", lambda self, q: 3.0 - sound(self, q))
     monkeypatch.setattr(start_positions, "FAR", math.inf)
     assert not checks(tmp_path, ELBOW)[NEAR].holds
 
@@ -289,6 +289,6 @@ def test_the_first_way_in_space_is_seen(tmp_path: Path, monkeypatch: pytest.Monk
     text = LINKAGE.replace("30 deg", "80 deg") + "near: {bearing: {angle: 157.1 deg}}\n"
     text += "allow: {crank.x: 1.0}\n"
     assert checks(tmp_path, text)[NEAR].difference < 0.01
-    monkeypatch.setattr(space_positions, "nearest_ways", lambda closure, ways: ways[:1])
-    monkeypatch.setattr(space_positions, "FAR", math.inf)
+    monkeypatch.setattr(start_positions, "nearest_ways", lambda closure, ways: ways[:1])
+    monkeypatch.setattr(start_positions, "FAR", math.inf)
     assert not checks(tmp_path, text)[NEAR].holds

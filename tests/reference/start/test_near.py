@@ -9,8 +9,8 @@ from given.linkages import LINKAGE
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
+from textmech.reference.start import positions
 from textmech.reference.start.assembly import start_poses
-from textmech.reference.start.space import positions as spatial
 
 ELBOW = """\
 scene:
@@ -128,8 +128,8 @@ def test_the_way_that_near_says_is_taken_in_space(
 def test_the_first_way_that_is_found_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(spatial, "nearest_ways", lambda closure, ways: ways[:1])
-    monkeypatch.setattr(spatial, "FAR", math.inf)
+    monkeypatch.setattr(positions, "nearest_ways", lambda closure, ways: ways[:1])
+    monkeypatch.setattr(positions, "FAR", math.inf)
     assert rocker(tmp_path, 80, "bearing: {angle: 157.1 deg}") == pytest.approx(57.1, abs=0.06)
 
 

@@ -82,7 +82,7 @@ REFUSED = [
     (
         CHAIN,
         "{hinge: {angle: 0}, elbow: {angle: 20 deg}, arm: {angle: 0}}",
-        "cannot be assembled from what is given: elbow stays open by 20 deg",
+        "cannot be assembled from what is given: elbow.angle stays open by 20 deg",
     ),
     (LOOP, "{A: {angle: 70 deg}, D: {angle: 10 deg}}", "cannot be assembled"),
     (

@@ -6,8 +6,8 @@ import pytest
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
-from textmech.reference.start import positions
 from textmech.reference.start.assembly import start_poses
+from textmech.reference.start.planar_closure import PlanarClosure
 
 PENDULUM = """\
 scene:
@@ -48,5 +48,5 @@ def test_both_on_one_turn_agree(tmp_path: Path) -> None:
 def test_without_the_question_the_joints_angle_is_lost(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(positions, "_on_its_turns", lambda closure, q: None)
+    monkeypatch.setattr(PlanarClosure, "refuse_turns", lambda self, q: None)
     assert started(tmp_path, TURN_MORE) == pytest.approx(6.783185307179586)

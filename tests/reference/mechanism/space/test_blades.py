@@ -11,7 +11,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint_terms import Heading
 from textmech.reference.mechanism.kinematics.kinematics import Direction
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
-from textmech.reference.start.assembly import assemble_in_space
+from textmech.reference.start.assembly import assemble
 from textmech.reference.systems import written
 
 KNIFE = scenes.SHIPPED["robot_knife"]
@@ -21,7 +21,7 @@ OWN = [-2, -1]  # the rows of the blade come last: to the side, and upward
 def generated() -> SpatialMultibody:
     """The only mode of the scene's mechanism."""
     scene = KNIFE.scene
-    return SpatialMultibody(scene, assemble_in_space(KNIFE, scene))
+    return SpatialMultibody(scene, assemble(KNIFE))
 
 
 def worst() -> float:

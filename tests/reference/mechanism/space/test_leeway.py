@@ -15,7 +15,7 @@ from textmech.reference import determined
 from textmech.reference.mechanism.modes import spatial_mode as spatial
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody, solved, unit_sizes
 from textmech.reference.solve import solve
-from textmech.reference.start.space.closure import SpatialClosure
+from textmech.reference.start.spatial_closure import SpatialClosure
 
 G = 9.80665
 ROUNDED = 1e-9  # of forces of 10 to 100 N

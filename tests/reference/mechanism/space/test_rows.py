@@ -14,7 +14,7 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.mechanism.constraints.constraint_terms import Lowest
 from textmech.reference.mechanism.kinematics.kinematics import Row
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
-from textmech.reference.start.assembly import assemble_in_space
+from textmech.reference.start.assembly import assemble
 
 CASES = ["universal_shaft", "spatial_four_bar", "cat_turn", "tilting_disk.circle", "rolling_sphere"]
 CASES += ["top_on_floor"]
@@ -24,7 +24,7 @@ T = 0.13  # s: laws in time are neither at zero nor at rest
 def state(name: str) -> tuple[SpatialMultibody, Any, Any]:
     """The mode at its start, with rates anyhow."""
     case = scenes.SHIPPED[name]
-    mode = SpatialMultibody(case.scene, assemble_in_space(case, case.scene))
+    mode = SpatialMultibody(case.scene, assemble(case))
     q, v = mode.start()
     return mode, q, v + np.random.default_rng(1).normal(size=len(v))
 
@@ -79,7 +79,7 @@ def test_a_height_is_kept_while_the_x_axis_of_its_body_stands_upright() -> None:
     own = case.scene
     (name, edge), *_ = own.constraints.items()
     scene = replace(own, constraints={name: replace(edge, along=(0.0, 1.0, 0.0))})
-    mode = SpatialMultibody(scene, assemble_in_space(case, own))
+    mode = SpatialMultibody(scene, assemble(replace(case, scene=own)))
     q, v = mode.start()
     first = 7 * [*scene.bodies].index(edge.at.body)
     q[first + 3 : first + 7] = np.sqrt([0.5, 0.0, 0.5, 0.0])  # about y, by a right angle

@@ -8,8 +8,8 @@ import pytest
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError, Mistake
-from textmech.reference.start.assembly import assemble_in_space
-from textmech.reference.start.space import positions
+from textmech.reference.start import positions
+from textmech.reference.start.assembly import assemble
 
 BODY = (
     "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}, "
@@ -64,7 +64,7 @@ initial: {{a: {{p: [0.24, 0.32, 0]}}}}
 
 def started(folder: Path, scene: str) -> None:
     case = typed(folder, f"{scene}allow: {{a.x: 1.0e-3}}\n")
-    assemble_in_space(case, case.scene)
+    assemble(case)
 
 
 def refused(folder: Path, scene: str) -> Mistake:
@@ -77,10 +77,10 @@ def refused(folder: Path, scene: str) -> Mistake:
 OPEN = "the mechanism cannot be assembled from what is given: "
 MORE = "not determined by what is given and the constraints"
 WRONG: dict[str, tuple[str, str]] = {
-    "coordinates that contradict each other": (  # what is between them is shared by both
+    "coordinates that contradict each other": (
         f"{PAIR}initial: {{j1: {{angle: 30 deg}}, j2: {{angle: 0}}, "
         "a: {attitude: {axis: [0, 0, 1], angle: 40 deg}}}\n",
-        f"{OPEN}a.attitude stays open by 5 deg",
+        f"{OPEN}j1.angle stays open by 10 deg",
     ),
     "a point out of reach": (  # 0.03 m: 0.83 of 0.8, shared by four equations
         f"{SLIDER}initial: {{rail: {{shift: 0.83}}}}\nnear: {{motor: {{angle: 0}}}}\n",
@@ -211,9 +211,9 @@ def test_a_mechanism_without_a_rate_rests_beside_one_that_turns(tmp_path: Path) 
     start = f"initial: {{hub: {{angle: 0, omega: 1}}, {place}}}\n"
     tail = "duration: 1.0\nsamples: 11\nallow: {a.x: 1.0e-2}\n"
     case = typed(tmp_path, TWO, tail=start.replace("RATE", "") + tail)
-    _, v = assemble_in_space(case, case.scene)
+    _, v = assemble(case)
     assert not np.any(v[-6:])
     assert np.any(v[:6])
     half = typed(tmp_path, TWO, tail=start.replace("RATE", ", vx: 1") + tail)
-    _, v = assemble_in_space(half, case.scene)
+    _, v = assemble(half)
     assert v[-6:].tolist() == [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]

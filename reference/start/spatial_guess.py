@@ -1,15 +1,17 @@
-"""A first guess of all places: along a tree of joints from the ground, at given coordinates."""
+"""Guesses of all places in space: along a tree of joints from the ground, at given coordinates."""
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from ....cases.case import Placement
-from ....cases.scene import GROUND, Anchor, Scene
-from ....cases.scene.joint import Joint
-from ....cases.scene.rotation import UPRIGHT, about, inverse, product, turned
-from ...mechanism.kinematics.spatial_coordinates import SpatialCoordinates
-from ...system import Array
+from ...cases.case import Placement
+from ...cases.scene import GROUND, Anchor, Scene
+from ...cases.scene.joint import Joint
+from ...cases.scene.rotation import UPRIGHT, about, inverse, product, turned
+from ..mechanism.kinematics.spatial_coordinates import SpatialCoordinates
+from ..system import Array
 
 Pose = tuple[Array, Array]  # r (3,) and the quaternion (4,)
 
@@ -94,3 +96,47 @@ def _local(scene: Scene, anchor: Anchor) -> Array:
     if anchor.body == GROUND:
         return np.array(scene.points[anchor.point].at)
     return np.array(scene.bodies[anchor.body].points[anchor.point])
+
+
+def together(
+    initial: Mapping[str, Placement], near: Mapping[str, Placement]
+) -> dict[str, Placement]:
+    """The placements by name: what is given, and what is near where nothing is given."""
+    both = {**near, **initial}
+    for name in near.keys() & initial.keys():
+        guess, given = near[name], initial[name]
+        both[name] = replace(
+            given,
+            given={**guess.given, **given.given},
+            points={**guess.points, **given.points},
+            attitude=given.attitude or guess.attitude,
+        )
+    return both
+
+
+def off_by(
+    scene: Scene,
+    near: Mapping[str, Placement],
+    far: float,
+    size: float,
+    rng: np.random.Generator,
+) -> dict[str, Placement]:
+    """Placements as `near` says them, but off by up to `far`, in rad or sizes."""
+
+    def off(turns: bool = False) -> float:
+        return float(rng.uniform(-far, far)) * (1.0 if turns else size)
+
+    found: dict[str, Placement] = {}
+    for name, said in near.items():
+        joint = scene.joints.get(name)
+        turns = {} if joint is None else {f.name: f.kind == "turn" for f in joint.named}
+        given = {key: x + off(turns.get(key, False)) for key, x in said.given.items()}
+        points = {key: tuple(x + off() for x in place) for key, place in said.points.items()}
+        e = said.attitude
+        if e is not None:
+            x, y, z = rng.normal(size=3).tolist()
+            length = math.hypot(x, y, z)
+            turn = about((x / length, y / length, z / length), off(turns=True))
+            e = tuple(product(np.array(e), np.array(turn)).tolist())
+        found[name] = replace(said, given=given, points=points, attitude=e)
+    return found

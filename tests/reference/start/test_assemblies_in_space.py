@@ -11,10 +11,8 @@ from given.scenes import typed
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import GROUND, Anchor
 from textmech.cases.scene.rotation import about
-from textmech.reference.start.assembly import assemble_in_space
-from textmech.reference.start.space import positions
-from textmech.reference.start.space.branches import closes, faithful
-from textmech.reference.start.space.closure import SpatialClosure
+from textmech.reference.start.assembly import assemble
+from textmech.reference.start.spatial_closure import SpatialClosure, closes
 
 BODY = (
     "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}, "
@@ -62,7 +60,7 @@ def refused(folder: Path, scene: str) -> str:
 def started(folder: Path, scene: str) -> np.ndarray:
     body = "crank" if "crank" in scene else "a"
     case = typed(folder, scene + f"allow: {{{body}.x: 1.0e-3}}\n")
-    return assemble_in_space(case, case.scene)[0]
+    return assemble(case)[0]
 
 
 def test_only_a_loop_closes(tmp_path: Path) -> None:
@@ -87,7 +85,7 @@ def test_a_hinge_turned_over_is_no_assembly(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The rows alone let the rocker stand on its head, too."""
-    monkeypatch.setattr(positions, "faithful", lambda closure, q: True)
+    monkeypatch.setattr(SpatialClosure, "is_assembly", lambda self, q: True)
     assert "can be assembled in 4 ways" in refused(tmp_path, LINKAGE)
 
 
@@ -144,10 +142,10 @@ TURNED = {
 def meant(name: str, folder: Path) -> tuple[float, bool]:
     """The largest residual of a box turned about an axis, and whether it is an assembly."""
     case = typed(folder, SLIDES)
-    closure = SpatialClosure(case, case.scene)
+    closure = SpatialClosure(case)
     axis, angle, _ = TURNED[name]
     q = np.array([0.0, 0.0, 0.0, *about(axis, angle)])
-    return float(np.abs(closure.mode.f(0.0, q)).max()), faithful(closure, q)
+    return float(np.abs(closure.equations(q)[0]).max()), closure.is_assembly(q)
 
 
 @pytest.mark.parametrize("name", TURNED)
@@ -161,6 +159,6 @@ def test_rows_of_right_angles_hold_of_axes_turned_over(name: str, tmp_path: Path
 @pytest.mark.mutant("a slide with its axes in a cycle taken for an assembly")
 def test_axes_in_a_cycle_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Their cosine is 0, between 1 and the −1 of half a turn."""
-    monkeypatch.setattr("textmech.reference.start.space.branches.ALIKE", -0.5)
+    monkeypatch.setattr("textmech.reference.start.spatial_closure.ALIKE", -0.5)
     assert meant("its axes in a cycle", tmp_path)[1]
     assert not meant("across its line, half a turn", tmp_path)[1]

@@ -1,5 +1,6 @@
 """The rates that joints in space are given at the start, read back by matrices alone."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.kinematics.spatial_coordinates import SpatialCoordinates
-from textmech.reference.start.assembly import assemble_in_space
-from textmech.reference.start.space import initial_conditions as module
+from textmech.reference.start.assembly import assemble
+from textmech.reference.start.closure import Coordinate
+from textmech.reference.start.spatial_closure import SpatialClosure
 from textmech.reference.system import Array
 
 KNOWN = 1e-12  # rad/s, m/s: all rates are near 1
@@ -39,7 +41,7 @@ ON_HOOK = FREEDOMS.format("s: {slide: [1, 0, 1]}, u: {slide: [0, 1, 0]}", "groun
 
 def started(folder: Path, joint: str, given: str) -> dict[str, Array]:
     case = typed(folder, PAIR.replace("JOINT", joint).replace("GIVEN", given))
-    poses = SpatialCoordinates(case.scene).poses(*assemble_in_space(case, case.scene))
+    poses = SpatialCoordinates(case.scene).poses(*assemble(case))
     return {name: np.array(pose, float) for name, pose in poses.items()}
 
 
@@ -104,22 +106,27 @@ def test_rates_in_the_axes_of_the_other_part_are_seen(
     off: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """−R_aᵀ R_b in place of −R_bᵀ R_a."""
-    sound = module.Given.relative
+    sound = SpatialClosure.relative
 
-    def wrong(self: module.Given, joint: object, q: Array) -> Array:
+    def wrong(self: SpatialClosure, joint: object, q: Array) -> Array:
         rows = sound(self, joint, q)  # type: ignore[arg-type]
-        at = self.mode.where.slots["a"].omega
+        at = self.where.slots["a"].omega
         assert at is not None
         rows[:, at : at + 3] = rows[:, at : at + 3].T
         return rows
 
-    monkeypatch.setattr(module.Given, "relative", wrong)
+    monkeypatch.setattr(SpatialClosure, "relative", wrong)
     assert {"two turns": two_turns, "a ball": ball}[off](tmp_path) > 0.01
 
 
 @pytest.mark.mutant("the rate of a slide on a point that moves counted from the ground")
 def test_a_rate_against_the_ground_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module.Given, "_driven", lambda self, anchor: np.zeros(3))
+    sound = SpatialClosure.coordinates
+
+    def from_the_ground(*given: object) -> Iterator[Coordinate]:
+        return (each._replace(beside=0.0) for each in sound(*given))  # type: ignore[arg-type]
+
+    monkeypatch.setattr(SpatialClosure, "coordinates", from_the_ground)
     assert on_hook(tmp_path) > 0.1
 
 
@@ -148,7 +155,7 @@ def test_a_joint_whose_rate_nobody_gives_carries_along(
     """Where the axis is the one about which the first part turns, the second could stand still."""
     text = CARRIED.replace("JOINT", joint).replace("RATE", rate).replace("PLACE", place)
     case = typed(tmp_path, text)
-    poses = SpatialCoordinates(case.scene).poses(*assemble_in_space(case, case.scene))
+    poses = SpatialCoordinates(case.scene).poses(*assemble(case))
     assert poses["b"][field] == pytest.approx(wanted, abs=KNOWN)
 
 
@@ -178,7 +185,7 @@ def loop(folder: Path, velocity: str, given: str, joints: tuple[str, ...]) -> Ar
     """v of a loop of one freedom."""
     text = LOOP.replace("VELOCITY", velocity).replace("GIVEN", given)
     case = typed(folder, text.replace("JOINTS", ", ".join(joints)))
-    return assemble_in_space(case, case.scene)[1]
+    return assemble(case)[1]
 
 
 @pytest.mark.slow

@@ -7,8 +7,9 @@ from given.otherwise import otherwise
 from given.scenes import typed
 
 from textmech.cases.mistake import CaseError
-from textmech.reference.start.assembly import assemble_in_space
-from textmech.reference.start.space import refusal
+from textmech.reference.start import spatial_closure
+from textmech.reference.start.assembly import assemble
+from textmech.reference.start.spatial_closure import SpatialClosure
 
 BODY = "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}}"
 SCENE = f"""\
@@ -26,16 +27,15 @@ allow: {{one.x: 1.0e-3}}
 def said(tmp_path: Path) -> str:
     case = typed(tmp_path, SCENE)
     with pytest.raises(CaseError) as refused:
-        assemble_in_space(case, case.scene)
+        assemble(case)
     return str(refused.value)
 
 
-@pytest.mark.mutant("the attitude of a body that is open where the next one's place is")
+@pytest.mark.mutant("the attitude of a body named where its place is open")
 def test_only_what_is_open_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     told = said(tmp_path)
     assert "other.x" in told
     assert "attitude" not in told
-    was = "at.omega : at.omega + 3"
-    wider = otherwise(refusal, was, was.replace("+ 3", "+ 4"))
-    monkeypatch.setattr(refusal, "_open", wider._open)
-    assert "one.attitude" in said(tmp_path)
+    other = otherwise(spatial_closure, '"vx": "x", ', "").SpatialClosure
+    monkeypatch.setattr(SpatialClosure, "_open_places", other._open_places)
+    assert "other.attitude" in said(tmp_path)
