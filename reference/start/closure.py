@@ -25,7 +25,7 @@ from .search import CLOSED, least, rank
 
 
 class Equation(NamedTuple):
-    """What is said of a start: residual = 0 [m or rad], and its change with the velocities (n,).
+    """A condition on the start: residual = 0 [m or rad], and its change with the velocities (n,).
 
     Of a rate: row · v = −residual. name: as a file has it; the components of a point share one.
     """
@@ -52,27 +52,27 @@ class Rows(NamedTuple):
     g: Array
     names: list[str]
 
-    def those(self, which: NDArray[np.bool_]) -> "Rows":
-        """Some of them."""
+    def selected(self, which: NDArray[np.bool_]) -> "Rows":
+        """Returns some of the rows."""
         names = [name for name, is_one in zip(self.names, which, strict=True) if is_one]
         return Rows(self.rows[which], self.g[which], names)
 
     def about(self, columns: Sequence[int]) -> "Rows":
-        """Those that concern any of these velocities."""
-        return self.those(np.any(self.rows[:, columns] != 0.0, axis=1))
+        """Returns the rows that concern any of these velocities."""
+        return self.selected(np.any(self.rows[:, columns] != 0.0, axis=1))
 
-    def with_(self, more: "Rows") -> "Rows":
-        """And others."""
+    def plus(self, more: "Rows") -> "Rows":
+        """Returns the rows with others behind them."""
         return Rows(
             np.vstack([self.rows, more.rows]), np.append(self.g, more.g), self.names + more.names
         )
 
     def off(self, v: Array) -> Array:
-        """What v leaves of them."""
+        """Returns the residuals (r,) that v leaves."""
         return self.rows @ v - self.g
 
     def violated(self, v: Array) -> bool:
-        """Whether that is more than rounding."""
+        """Whether v leaves more than rounding."""
         largest = np.max(np.abs(self.rows * v), initial=0.0)
         scale = max(largest, np.max(np.abs(self.g), initial=0.0))
         return bool(np.max(np.abs(self.off(v)), initial=0.0) > CLOSED * scale)
@@ -115,11 +115,11 @@ class Closure:
     attitude_word: str  # the key by which a file gives an attitude
 
     def givens(self) -> tuple[Mapping[int, float], Collection[int]]:
-        """What is given of q, by its place there, and the columns of v that it leaves no way."""
-        return self.said_of_bodies(self.case.initial), self.known(self.case.initial)
+        """Returns what is given of q, by its place there, and the columns of v that this fixes."""
+        return self.body_coordinates(self.case.initial), self.fixed_columns(self.case.initial)
 
     def attitude_of(self, placement: Placement) -> Sequence[float] | None:
-        """What a placement gives of an attitude, as q has it."""
+        """Returns what a placement gives of an attitude, as q has it."""
         raise NotImplementedError
 
     def turned(self, wanted: Sequence[float], q: Array, at: int) -> Sequence[float]:
@@ -130,14 +130,16 @@ class Closure:
         """Yields the turns of a joint."""
         raise NotImplementedError
 
-    def beside(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
+    def equations_by_word(
+        self, placements: Mapping[str, Placement], q: Array
+    ) -> Iterator[Equation]:
         """Yields what placements say besides coordinates and points."""
         yield from ()
 
     def refuse_rates(self, q: Array, v: Array) -> None:
         """Raises CaseError for rates that are 0 where nobody says whose; v in units of the size."""
 
-    def rates_beside(self, q: Array) -> Iterator[Equation]:
+    def rates_by_word(self, q: Array) -> Iterator[Equation]:
         """Yields the rates that the case gives besides those of bodies and freedoms."""
         yield from ()
 
@@ -163,7 +165,7 @@ class Closure:
         """f = 0 in units of the size: residuals (k,) and rows (k, n)."""
         table = self._table(self.parts)
         f = residuals(table, self.parts, 0.0, q.tolist())
-        told = list(self.told(self.case.initial, q))
+        told = list(self.equations_of(self.case.initial, q))
         angular = np.append(self._angular(self.parts)[self._places], [e.angular for e in told])
         units = np.where(angular, 1.0, self.size)
         rows = [self._rows(self.parts, q)[0][self._places], *(e.row[None] for e in told)]
@@ -177,9 +179,9 @@ class Closure:
         """For each residual the part, or what is given, by its name; and whether it is an angle."""
         names = [(c.part, angle) for c in self.parts for angle in c.angular]
         held = [owner for owner, place in zip(names, self._places, strict=True) if place]
-        return [*held, *((e.name, e.angular) for e in self.told(self.case.initial, q))]
+        return [*held, *((e.name, e.angular) for e in self.equations_of(self.case.initial, q))]
 
-    def told(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
+    def equations_of(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
         """Yields what placements say of points, of joints, and besides."""
         for name, placement in placements.items():
             for point, place in placement.points.items():
@@ -189,7 +191,7 @@ class Closure:
             for c in self.placed(name, placement, q):
                 off = c.value - placement.given[c.freedom.name]
                 yield Equation(f"{name}.{c.freedom.name}", off, c.row, c.freedom.kind != "shift")
-        yield from self.beside(placements, q)
+        yield from self.equations_by_word(placements, q)
 
     def placed(self, name: str, placement: Placement, q: Array) -> list[Coordinate]:
         """The coordinates of a joint that a placement gives."""
@@ -223,7 +225,7 @@ class Closure:
 
     # What is said of bodies by themselves.
 
-    def said_of_bodies(self, placements: Mapping[str, Placement]) -> dict[int, float]:
+    def body_coordinates(self, placements: Mapping[str, Placement]) -> dict[int, float]:
         """The coordinates that are given of bodies, by their places in q."""
         found: dict[int, float] = {}
         for name, placement in self._bodies(placements):
@@ -236,7 +238,7 @@ class Closure:
                 found |= {at.attitude + i: x for i, x in enumerate(e)}
         return found
 
-    def known(self, placements: Mapping[str, Placement]) -> set[int]:
+    def fixed_columns(self, placements: Mapping[str, Placement]) -> set[int]:
         """The columns of v along which placements leave a body no way."""
         found: set[int] = set()
         for name, placement in self._bodies(placements):
@@ -264,12 +266,12 @@ class Closure:
         turns: whether whole ones count, which what is given elsewhere may hold.
         """
         found: dict[str, float] = {}
-        for name, off, angular in self._said_near(q):
+        for name, off, angular in self._off_near(q):
             size = (off if turns else math.remainder(off, math.tau)) if angular else off / self.size
             found[name] = math.hypot(found.get(name, 0.0), size)
         return found
 
-    def _said_near(self, q: Array) -> Iterator[tuple[str, float, bool]]:
+    def _off_near(self, q: Array) -> Iterator[tuple[str, float, bool]]:
         near = self.case.near
         for name, placement in self._bodies(near):
             at = self.where.slots[name]
@@ -280,7 +282,7 @@ class Closure:
             if e is not None and at.attitude is not None:
                 for turned in self.turned(e, q, at.attitude):
                     yield f"{name}.{self.attitude_word}", turned, True
-        yield from ((e.name, e.residual, e.angular) for e in self.told(near, q))
+        yield from ((e.name, e.residual, e.angular) for e in self.equations_of(near, q))
 
     def distance(self, q: Array) -> float:
         """How far q is from the worst of what `near` says, in rad or sizes; 0 without any."""
@@ -303,10 +305,10 @@ class Closure:
     # The rows of the velocities.
 
     def velocities(self, q: Array) -> Rows:
-        """What is held and given; but for the rates of bodies, which are no unknowns."""
+        """Returns the rows of all that is held and given, but for rates of bodies, no unknowns."""
         names = [c.part for c in self.parts for _ in range(c.size)]
-        told = [*self._rates_of_joints(q), *self.rates_beside(q)]
-        return Rows(*self.linear(self.parts, q), names).with_(self.scaled(told))
+        told = [*self._rates_of_joints(q), *self.rates_by_word(q)]
+        return Rows(*self.linear(self.parts, q), names).plus(self.scaled(told))
 
     def scaled(self, told: Sequence[Equation]) -> Rows:
         """The rows of rates."""

@@ -54,13 +54,13 @@ class PlanarClosure(Closure):
         ]
 
     def givens(self) -> tuple[Mapping[int, float], Collection[int]]:
-        """With the angles that slides, welds and given joints hold against given ones."""
+        """Returns what is given, and the angles that slides, welds and joints hold against it."""
         self._locks = [lock for part in self.parts for lock in self._held_by(part)]
         for name, placement in self.case.initial.items():
             if name in self.scene.joints and "angle" in placement.given:
                 a, b = map(self._column, self.scene.joints[name].refers())
                 self._locks.append(Lock(a, b, placement.given["angle"]))
-        found = held_angles(self._locks, self.said_of_bodies(self.case.initial))
+        found = held_angles(self._locks, self.body_coordinates(self.case.initial))
         return found, found.keys()
 
     def _held_by(self, part: Constraint) -> Iterator[Lock]:
@@ -73,16 +73,16 @@ class PlanarClosure(Closure):
         return self.where.columns.get(end.body, (0, None))[1]
 
     def attitude_of(self, placement: Placement) -> Sequence[float] | None:
-        """Its angle."""
+        """Returns the angle that a placement gives."""
         angle = placement.given.get("angle")
         return None if angle is None else (angle,)
 
     def turned(self, wanted: Sequence[float], q: Array, at: int) -> Sequence[float]:
-        """The difference of both angles."""
+        """Returns the difference [rad] of both angles."""
         return (float(q[at]) - wanted[0],)
 
     def turns(self, joint: Joint, q: Array) -> Iterator[Coordinate]:
-        """φ_B − φ_A."""
+        """Yields the turn of a joint, φ_B − φ_A."""
         for freedom in joint.turns:
             row, value = np.zeros(self.n), 0.0
             for end, sign in zip(joint.refers(), (-1.0, 1.0), strict=True):
@@ -91,15 +91,17 @@ class PlanarClosure(Closure):
                     value += sign * float(q[column])
             yield Coordinate(freedom, value, row, 0.0)
 
-    def beside(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
-        """What stands on planes is on them."""
+    def equations_by_word(
+        self, placements: Mapping[str, Placement], q: Array
+    ) -> Iterator[Equation]:
+        """Yields that the points which stand on planes are on them."""
         if placements is self.case.initial:
             for part in self._on:
                 rows, _ = self._rows([part], q)
                 yield Equation(part.part, float(part.f(0.0, q.tolist())[0]), rows[0])
 
-    def rates_beside(self, q: Array) -> Iterator[Equation]:
-        """The speeds of edges, and that what stands on planes does not move."""
+    def rates_by_word(self, q: Array) -> Iterator[Equation]:
+        """Yields the speeds of edges, and that the points which stand on planes do not move."""
         named = [(part.part, part) for part in self._gliding]
         for name, part in [*named, *((str(anchor), part) for anchor, part in self._still)]:
             rows, g = self._rows([part], q)
@@ -111,7 +113,7 @@ class PlanarClosure(Closure):
 
     def settled(self, q: Array) -> Array:
         """q with angles that nobody gave in (−π, π], or next to their guess; held ones follow."""
-        near = self.said_of_bodies(self.case.near)
+        near = self.body_coordinates(self.case.near)
         known = dict(self.given)
         for i in self.free[self.turning[self.free]].tolist():
             if i not in known:
@@ -133,9 +135,9 @@ class PlanarClosure(Closure):
     # Guesses, and which of the ways that they lead to is meant.
 
     def guess(self) -> Array:
-        """What is near, and the places that fit it best."""
+        """Returns the first guess: what is near, and the places that fit it best."""
         return self._laid_out(
-            self._said(np.zeros(self.n)), keep=self.said_of_bodies(self.case.near)
+            self._said(np.zeros(self.n)), keep=self.body_coordinates(self.case.near)
         )
 
     def several(self) -> bool:
@@ -143,8 +145,8 @@ class PlanarClosure(Closure):
         return bool(len(self.free))
 
     def beside_near(self, count: int) -> Iterator[Array]:
-        """Guesses with what is near kept, ever less so, and the free angles anywhere."""
-        near, rng = self.said_of_bodies(self.case.near), np.random.default_rng(seed=1)
+        """Yields guesses with what is near kept, ever less so, and the free angles anywhere."""
+        near, rng = self.body_coordinates(self.case.near), np.random.default_rng(seed=1)
         kept = np.zeros(self.n)
         kept[[i for i in near if i not in self.given]] = 1.0
         for k, q in enumerate(self._scattered(count, rng)):
@@ -152,12 +154,12 @@ class PlanarClosure(Closure):
             yield self._laid_out(self._said(q) + off)
 
     def anywhere(self) -> Iterator[Array]:
-        """Guesses with the free angles anywhere."""
+        """Yields guesses with the free angles anywhere."""
         rng = np.random.default_rng(seed=1)  # any: the same starts in every run
         yield from map(self._laid_out, self._scattered(self.seeds, rng))
 
     def _scattered(self, count: int, rng: np.random.Generator) -> Iterator[Array]:
-        """What is given, and the free angles anywhere: without one the equations are linear."""
+        """Yields q with what is given, and the free angles anywhere: without one all is linear."""
         angles = [i for i in self.free if self.turning[i]]
         rods = any(joint.swings for joint in self.scene.joints.values())
         places = [i for i in self.free if not self.turning[i]] if rods else []
@@ -169,7 +171,7 @@ class PlanarClosure(Closure):
 
     def _said(self, q: Array) -> Array:
         """q with what is near and what is given in their places."""
-        near = self.said_of_bodies(self.case.near)
+        near = self.body_coordinates(self.case.near)
         q[list(near)] = list(near.values())
         return self.with_given(q)
 
@@ -183,14 +185,14 @@ class PlanarClosure(Closure):
         return q
 
     def refuse_words(self) -> None:
-        """Nothing: each word of a start in the plane says something."""
+        """Refuses nothing: each word of a start in the plane says something."""
 
     def is_assembly(self, q: Array) -> bool:
-        """Every solution is one: angles have no second zero."""
+        """Returns True: in the plane every solution is one, for angles have no second zero."""
         return True
 
-    def simplest(self, ways: list[Array]) -> list[Array]:
-        """All of them."""
+    def preferred(self, ways: list[Array]) -> list[Array]:
+        """Returns all of the ways: in the plane none is preferred."""
         return ways
 
     def refuse_turns(self, q: Array) -> None:
@@ -203,7 +205,7 @@ class PlanarClosure(Closure):
 
     # In which words.
 
-    def told_apart(self, ways: list[Array]) -> str:
+    def distinguishing(self, ways: list[Array]) -> str:
         """The coordinate in which ways differ most: rather an angle, which is easier to guess."""
         differ = np.abs(ways[0] - ways[1])
         differ = np.where(self.turning, np.abs(np.sin(differ / 2)), differ / self.size)
@@ -213,7 +215,7 @@ class PlanarClosure(Closure):
         ]
 
     def shown(self, q: Array, name: str) -> str:
-        """An angle, too."""
+        """Returns the value of a coordinate as a file has it, that of a body's angle too."""
         part, _, field = name.partition(".")
         at = self.where.columns.get(part, (0, None))[1]
         if field == "angle" and at is not None:

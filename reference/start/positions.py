@@ -54,7 +54,7 @@ def _guesses(closure: Closing, ways: list[Array]) -> Iterator[Array]:
 
 def nearest_ways(closure: Closing, ways: list[Array]) -> list[Array]:
     """The one that is nearest to what `near` says, or several that are as near as each other."""
-    return closure.simplest(least_of(ways, [closure.distance(q) for q in ways], SAME))
+    return closure.preferred(least_of(ways, [closure.distance(q) for q in ways], SAME))
 
 
 def _determined(closure: Closing, q: Array) -> None:
@@ -91,7 +91,7 @@ def _cannot_close(closure: Closing, q: Array, gap: float) -> CaseError:
 
 def _several_ways(closure: Closing, ways: list[Array]) -> CaseError:
     """Names the coordinate in which the ways differ most, with its values."""
-    name = closure.told_apart(ways)
+    name = closure.distinguishing(ways)
     values = list(dict.fromkeys(closure.shown(q, name) for q in ways))
     return messages.several(closure.case, len(ways), name, values)
 

@@ -39,8 +39,8 @@ def _of_one(closure: Closure, held: Rows, resting: Rows, v: Array, free: list[in
     """
     known = rank(held.rows[:, free])
     untold = [rank(np.vstack([held.rows, row])[:, free]) > known for row in resting.rows]
-    left = resting.those(np.array(untold, bool))
-    every = held.with_(left)
+    left = resting.selected(np.array(untold, bool))
+    every = held.plus(left)
     if not every.violated(v):
         return v
     found = every.solved(v, free)

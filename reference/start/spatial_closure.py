@@ -48,15 +48,15 @@ class SpatialClosure(Closure):
         super().__init__(case, SpatialCoordinates(case.scene))
 
     def attitude_of(self, placement: Placement) -> Sequence[float] | None:
-        """Its quaternion."""
+        """Returns the quaternion that a placement gives."""
         return placement.attitude
 
     def turned(self, wanted: Sequence[float], q: Array, at: int) -> Sequence[float]:
-        """The turn from one attitude to the other, in the axes of q."""
+        """Returns the turn (3,) [rad] from one attitude to the other, in the axes of q."""
         return _between(wanted, q[at : at + 4]).tolist()
 
     def turns(self, joint: Joint, q: Array) -> Iterator[Coordinate]:
-        """Its turns about axes; a ball has none."""
+        """Yields the turns of a joint about axes; a ball has none."""
         if not joint.turns or joint.turns[0].kind != "turn":
             return
         a, b = (self.attitude(at.body, q) for at in joint.refers())
@@ -94,8 +94,10 @@ class SpatialClosure(Closure):
         e = q[at.attitude : at.attitude + 4]
         return e / np.linalg.norm(e)
 
-    def beside(self, placements: Mapping[str, Placement], q: Array) -> Iterator[Equation]:
-        """The attitudes of joints."""
+    def equations_by_word(
+        self, placements: Mapping[str, Placement], q: Array
+    ) -> Iterator[Equation]:
+        """Yields the attitudes that placements give of joints."""
         for name, placement in placements.items():
             if name in self.scene.joints and placement.attitude is not None:
                 apart = _between(placement.attitude, self.attitude(name, q)).tolist()
@@ -103,8 +105,8 @@ class SpatialClosure(Closure):
                 for off, row in zip(apart, rows, strict=True):
                     yield Equation(f"{name}.attitude", off, row, angular=True)
 
-    def rates_beside(self, q: Array) -> Iterator[Equation]:
-        """The ω of balls, and of bodies whose attitude nobody gives."""
+    def rates_by_word(self, q: Array) -> Iterator[Equation]:
+        """Yields the ω that the case gives of balls."""
         for name, placement in self.case.initial.items():
             if name not in self.scene.joints:
                 continue
@@ -113,7 +115,7 @@ class SpatialClosure(Closure):
                     yield Equation(f"{name}.{word}", -placement.given[word], row, angular=True)
 
     def resting(self, q: Array) -> Iterator[Equation]:
-        """The rates of all joints, of the second part against the first."""
+        """Yields the rates of all joints, of the second part against the first."""
         for joint in self.scene.joints.values():
             yield from self.rates(joint, q).values()
 
@@ -141,7 +143,7 @@ class SpatialClosure(Closure):
     # Guesses.
 
     def guess(self) -> Array:
-        """Along joints, from what is given, and near where nothing is."""
+        """Returns the first guess: along joints, from what is given and else what is near."""
         return self._laid_out(self.case.near, {})
 
     def several(self) -> bool:
@@ -160,14 +162,14 @@ class SpatialClosure(Closure):
         return bool(placed) or any(axis in placement.given for axis in SPACE.axes)
 
     def beside_near(self, count: int) -> Iterator[Array]:
-        """Guesses with what is near, ever less so, and the turns of joints anywhere."""
+        """Yields guesses with what is near, ever less so, and the turns of joints anywhere."""
         rng = np.random.default_rng(seed=1)
         for k in range(count):
             near = off_by(self.scene, self.case.near, k / count * NEAR, self.size, rng)
             yield self._laid_out(near, self._turns_anywhere(rng))
 
     def anywhere(self) -> Iterator[Array]:
-        """Guesses with the turns of joints anywhere."""
+        """Yields guesses with the turns of joints anywhere."""
         rng = np.random.default_rng(seed=1)  # any: the same starts in every run
         for _ in range(self.seeds):
             yield self._laid_out({}, self._turns_anywhere(rng))
@@ -216,8 +218,8 @@ class SpatialClosure(Closure):
                 return False
         return True
 
-    def simplest(self, ways: list[Array]) -> list[Array]:
-        """Those whose three turns are within gimbal lock where nothing says their middle one.
+    def preferred(self, ways: list[Array]) -> list[Array]:
+        """Returns the ways whose turns are within gimbal lock where nothing says the middle one.
 
         Of ways that differ in turns without a name alone, as of a rod that hangs on a universal
         joint turned over, that in which these turns are least.
@@ -269,7 +271,7 @@ class SpatialClosure(Closure):
 
     # In which words.
 
-    def told_apart(self, ways: list[Array]) -> str:
+    def distinguishing(self, ways: list[Array]) -> str:
         """The joint's coordinate in which ways differ most, or the body whose attitude does."""
         name, apart = self._differ_most(ways)
         if apart >= SAME:
@@ -299,7 +301,7 @@ class SpatialClosure(Closure):
         return name, found.get(name, 0.0)
 
     def shown(self, q: Array, name: str) -> str:
-        """An attitude, too."""
+        """Returns the value of a coordinate as a file has it, or an attitude."""
         part, _, field = name.partition(".")
         return _text(self.attitude(part, q)) if field == "attitude" else super().shown(q, name)
 
