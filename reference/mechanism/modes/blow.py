@@ -92,7 +92,7 @@ def blow(
 def _fast(rows: _Rows, v: Array) -> float:
     """The scale against which rates of the rows are small."""
     sizes = np.abs(rows.f) @ np.abs(v)
-    return float(max(np.max(sizes), np.max(np.abs(rows.after))))
+    return float(max(np.max(sizes, initial=0.0), np.max(np.abs(rows.after), initial=0.0)))
 
 
 def _rows(

@@ -76,10 +76,18 @@ def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:
 
 
 def _choices(meetings: Sequence[Meeting]) -> Sequence[tuple[State, ...]]:
-    """Sticking first; what only rests on the floor may also leave it."""
+    """Sticking first; what the blow of another contact throws up may also leave the floor.
+
+    Be it that it rested there, or that it strikes too: a tall block that falls flat on a rough
+    floor, as it moves, may be stopped by its leading corner alone.
+    """
     sliding: tuple[State, ...] = ("slides +",)
     rests = [sliding if m.element.frictionless else m.element.rest for m in meetings]
-    return [rest if m.strikes else (*rest, "open") for m, rest in zip(meetings, rests, strict=True)]
+    alone = len(meetings) == 1
+    return [
+        rest if alone and m.strikes else (*rest, "open")
+        for m, rest in zip(meetings, rests, strict=True)
+    ]
 
 
 def _lets_go(known: Sequence[State], states: Sequence[State]) -> bool:

@@ -185,10 +185,14 @@ class Modes(Mapping[str, Multibody]):
 
     @cached_property
     def _usual(self) -> float:
-        """The largest acceleration [m/s²] of a force at the start, as at any corner of its law."""
+        """The largest acceleration [m/s²] of a force at the start, as at any corner of its law.
+
+        And of the motion there: a bar that turns without any force is held on its circle.
+        """
         before = [math.nextafter(corner, -math.inf) for corner in self.corners]
         times = [0.0, *self.corners, *before]
-        return max(self.base.terms(t, *self.start)[0] for t in times)
+        turning = float(np.max(np.abs(self.base.accelerations(0.0, *self.start)), initial=0.0))
+        return max(turning, *(self.base.terms(t, *self.start)[0] for t in times))
 
     def still(self, t: float, q: Array, v: Array, *, part: float) -> float:
         """A speed that is none [m/s]: that part of the motion's, and what forces give so early.

@@ -51,3 +51,29 @@ def test_rounding_of_what_is_left_is_seen(monkeypatch: pytest.MonkeyPatch, tmp_p
     monkeypatch.setattr(Modes, "_usual", 0.0)
     with pytest.raises((CaseError, AssertionError)):
         pressed(tmp_path, 0.5, 1.1843525281307231, 0.8)
+
+
+FREE = """\
+scene:
+  gravity: none
+  points: {O: [0.1928, -0.4271]}
+  bodies: {b: {bar: {mass: 1, length: 1}}}
+  joints: {q: {pin: [ground.O, b.start]}}
+  forces: {ends: {stops: q, low: -1, high: 1}}
+initial: {q: {angle: 0, omega: RATE}}
+allow: {b.x: 0.1, ends.torque: 0.1}
+"""
+
+
+@pytest.mark.parametrize("rate", [4.0, 3.0, 2.0])
+@pytest.mark.mutant("nothing as small as rounding where no force acts")
+def test_what_no_force_moves_stays_at_its_stop(rate: float, tmp_path: Path) -> None:
+    """To stay and to leave are one motion, whatever the blow has left of its rate."""
+    case = typed(tmp_path, FREE.replace("RATE", repr(rate)))
+    solution = solve(case)
+    assert solution.holds
+    last = solution.trajectory.states["b"][-1]
+    assert last[2:] == pytest.approx([1.0, 0.0, 0.0, 0.0], abs=1e-14)
+    assert observe(case.scene, solution.trajectory, "ends.torque")[-1] == pytest.approx(
+        0, abs=1e-14
+    )

@@ -4,11 +4,13 @@ from pathlib import Path
 
 import pytest
 from given import scenes
+from given.otherwise import otherwise
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import VX
+from textmech.reference.mechanism.modes import impact
 from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
@@ -221,3 +223,45 @@ def test_two_ropes_that_come_taut_at_one_instant_hold_it_on_their_axis(
     assert solution.holds
     x, y, *_, vx, vy, _ = solution.trajectory.states["bob"][-1]
     assert (x, y, vx, vy) == pytest.approx((0.0, 0.6, 0.0, 0.0), abs=1e-12)
+
+
+TALL = """\
+scene:
+  bodies: {w: {block: {mass: 3.0, width: 0.24, height: 0.38}}}
+  contacts:
+    left: {between: [w.lower_left, ground.floor], friction: 0.8}
+    right: {between: [w.lower_right, ground.floor], friction: 0.8}
+initial: {w: {x: 0, y: 0.24, angle: 0, vx: -2.0, vy: 0, omega: 0}}
+events: {l: {left.gap: falls to zero}, r: {right.gap: falls to zero}}
+allow: {w.y: 1.0e-3}
+"""
+
+
+def test_a_tall_block_that_falls_flat_as_it_moves_may_be_stopped_by_one_corner(
+    tmp_path: Path,
+) -> None:
+    """It strikes with u = √(2 g 0.05 m). Its left corner alone takes N = 3.85 N s, and slides.
+
+    With r = (−0.12, −0.19) m, J = m (w² + h²)/12: ω = (r_x N − r_y μ N)/J, and the corner's
+    −u + N/m + r_x ω is 0. The other corner would have to be pulled.
+    """
+    case = scenes.typed(tmp_path, TALL, tail=scenes.tail(0.12, 11))
+    assert solve(case).holds
+    (strike,) = follow(scenes.mechanism(case), case.times).changes
+    m, mu, x, y = 3.0, 0.8, -0.12, -0.19
+    J, u = m * (0.24**2 + 0.38**2) / 12, (2 * 9.80665 * 0.05) ** 0.5
+    turned = (x - y * mu) / J  # per N s
+    N = u / (1 / m + x * turned)
+    assert abs(N - 3.85) < 0.01
+    assert strike.after[3:] == pytest.approx([-2.0 + mu * N / m, -u + N / m, N * turned], abs=1e-9)
+    assert N / m - u - x * N * turned > 0.1  # it rises
+
+
+@pytest.mark.mutant("what strikes at the instant of another cannot be thrown up by it")
+def test_that_both_corners_have_to_hold_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blind = otherwise(impact, "alone = len(meetings) == 1", "alone = True")
+    monkeypatch.setattr(impact, "_choices", blind._choices)
+    with pytest.raises(CaseError, match="no impulse satisfies the friction law"):
+        solve(scenes.typed(tmp_path, TALL, tail=scenes.tail(0.12, 11)))
