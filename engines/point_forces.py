@@ -15,6 +15,7 @@ from ..cases.scene.forces.drag import Drag, Viscous
 from ..cases.scene.forces.element import Force
 from ..cases.scene.forces.force import Magnetic
 from ..cases.scene.forces.muscle import Contracting, LinearMuscle, Muscle
+from .engine import Diverged
 
 
 class Place(NamedTuple):
@@ -115,6 +116,8 @@ def _contracting(scene: Scene, force: Contracting) -> Living:
         a, b = points
         x, y = b.x - a.x, b.y - a.y
         length = math.hypot(x, y)
+        if length == 0.0:
+            raise Diverged(f"{force.name} has no length, and so no direction")
         size = (series * (length - u) + beside * (length - rest)) / length
         return (size * x, size * y), (-size * x, -size * y)
 
@@ -122,9 +125,20 @@ def _contracting(scene: Scene, force: Contracting) -> Living:
 
 
 def _hill(force: Muscle) -> Callable[[float], float]:
-    """(F + a)(v + b) = (F₀ + a) b, solved for v."""
+    """(F + a)(v + b) = (F₀ + a) b, solved for v. Raises Diverged for F ≤ −a, where it has none.
+
+    There is another branch of the hyperbola, onto which a step that is too large would leap.
+    """
     top, a, b = (force.isometric + force.hill_a) * force.hill_b, force.hill_a, force.hill_b
-    return lambda tension: top / (tension + a) - b
+
+    def shortening(tension: float) -> float:
+        if tension <= -a:
+            raise Diverged(
+                f"{force.name} is pressed by {-tension:.4g} N, and Hill's law holds above {-a:g} N"
+            )
+        return top / (tension + a) - b
+
+    return shortening
 
 
 def _linear(force: LinearMuscle) -> Callable[[float], float]:

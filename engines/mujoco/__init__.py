@@ -20,6 +20,7 @@ from .adapter.refuse import not_native, unbuildable, uncompilable
 from .adapter.run import simulate
 from .model.contact import closed, recipes, worth
 from .model.drive import controls
+from .model.force import BY_ITSELF
 from .model.planes import met
 from .model.rods import of_scene, with_rods
 from .model.scene import mjcf
@@ -115,7 +116,8 @@ class MuJoCo:
         scene, start = with_rods(scene, start)
         with_own = partial(settings.with_own, scene=scene, start=start, tied_to=step)
         touches, plane = bool(worth(scene)), scene.frame is PLANE
-        notes = option_notes(options, contacts=touches, plane=plane)
+        timed = any(law.law not in BY_ITSELF for law in scene.laws())
+        notes = option_notes(options, contacts=touches, plane=plane, timed=timed)
         rubs = max((contact.friction for contact in met(scene)), default=None)
         return snippet(with_own(options), with_own({}), step, notes, friction=rubs)
 

@@ -94,7 +94,7 @@ class Pymunk:
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Lines of Python for a script with a `space`, as users write it."""
-        return snippet(own(options, scene, start)(step), step)
+        return snippet(own(options, scene, start)(step), step, timed=any(scene.laws()))
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""

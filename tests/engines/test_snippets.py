@@ -184,8 +184,8 @@ def test_lines_for_pymunk(name: str, options: Options) -> None:
     exec("\n".join(["import math", "import pymunk", *lines]), names)
     space = names["space"]
     before = held(space)
-    pasted, *_ = engine.snippet(scene, start, options, STEP).partition("for n in range")
-    exec(pasted, names)
+    pasted = engine.snippet(scene, start, options, STEP)
+    exec(re.sub(r"space.iterations = \d+  # of the first .*", "", pasted), names)
     numbers = numbers_by_name(planned(engine, scene, start).choices(STEP))
     wanted = placed(scene, start, STEP, numbers, "native").space
     assert names["h"] == STEP
@@ -201,7 +201,14 @@ def test_the_first_sweeps_are_taken_first() -> None:
     built = building(build(scene, start, {}, "native"), start, {})
     names: dict[str, Any] = {}
     exec("\n".join(["import math", "import pymunk", *built]), names)
-    exec(engine.snippet(scene, start, options, STEP), names)
+    pasted = engine.snippet(scene, start, options, STEP)
+    exec(pasted, names)
+    names["space"].step(STEP)
+    assert names["space"].iterations == 90
+    for _ in range(4):
+        names["space"].step(STEP)
+    (after,) = re.findall(r"after them: (space.iterations = \d+)$", pasted, re.MULTILINE)
+    exec(after, names)
     for _ in range(95):
         names["space"].step(STEP)
     times = np.array([0.0, 100 * STEP])
@@ -232,3 +239,31 @@ def held(space: pymunk.Space) -> list[Any]:
     joints = [(j.error_bias, j.max_bias) for j in space.constraints if not isinstance(j, springs)]
     names = ("iterations", "damping", "collision_slop", "collision_bias", "collision_persistence")
     return [[getattr(space, name) for name in names], bodies, circles, joints]
+
+
+PUSHED = """\
+scene:
+  points: {O: [0, 0], W: [-1, 0]}
+  bodies: {b: {block: {mass: 1.0, width: 0.3, height: 0.1}}}
+  joints: {rail: {slide: [ground.O, b.center], along: [1, 0]}}
+  forces:
+    coil: {spring: [ground.W, b.center], stiffness: 30.0, rest_length: 1.0}
+    hand: {push: b.center, LAW}
+initial: {rail: {shift: 0.1, speed: 0}}
+allow: {b.x: 1.0e-3}
+"""
+
+
+@pytest.mark.parametrize(
+    ("law", "noted"),
+    [("sine: {amplitude: [5, 0], angular_frequency: 8.0}", True), ("constant: [5, 0]", False)],
+)
+def test_when_a_law_in_time_is_asked_is_said(law: str, noted: bool, tmp_path: Path) -> None:
+    """Both recipes take forces in the middle of a step, or at every stage of it."""
+    case = scenes.typed(tmp_path, PUSHED.replace("LAW", law), tail=scenes.tail(1.0, 26))
+    scene, start = case.scene, first(solve(case).trajectory)
+    lines = Pymunk("shipped").snippet(scene, start, {"midpoint": True}, STEP)
+    assert ("the law's value at t = n * h + h / 2" in lines) == noted
+    told = MuJoCo("shipped").snippet(scene, start, {"integrator": "RK4"}, STEP)
+    assert ("is to be set in mjcb_control" in told) == noted
+    assert "mjcb_control" not in MuJoCo("shipped").snippet(scene, start, {}, STEP)

@@ -76,9 +76,18 @@ def snippet(
     )
 
 
-def option_notes(options: Options, *, contacts: bool, plane: bool) -> list[str]:
-    """Notes on those of the options that no element says."""
+def option_notes(options: Options, *, contacts: bool, plane: bool, timed: bool) -> list[str]:
+    """Notes on those of the options that no element says.
+
+    timed: whether a control follows a law in time.
+    """
     notes = []
+    if timed and options.get("integrator") == "RK4":
+        notes.append(
+            "a control that follows a law in time is to be set in mjcb_control, which RK4 asks at "
+            "every stage: set between steps it is held, and the error of first order. The callback "
+            "stands in the file of `show`"
+        )
     if contacts and options.get("settled"):
         notes.append("starts as deep in the floor as it is carried there: the keyframe of `show`")
     if contacts and plane and options.get("noslip_iterations"):

@@ -54,8 +54,13 @@ def plan(
         numbers=numbers,
         protocol=partial(_words, scene, start, realised, numbers),
         withheld=_withheld(scene, realised),
-        simplified=one_number(scene) if realised == "native" and not shipped else "",
+        simplified=one_number(scene) if not (shipped or _lawful(scene, realised)) else "",
     )
+
+
+def _lawful(scene: Scene, realised: Realised) -> bool:
+    """Whether dry friction goes by our law: elsewhere it is pymunk's, whatever else is ours."""
+    return realised != "native" and ruled(scene)
 
 
 def numbers_by_name(choices: Sequence[Choice]) -> dict[str, Any]:
@@ -79,7 +84,8 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     in which a spring begins or ends to act, what is left is anything up to its second order.
     """
     native = realised == "native"
-    brakes = native and any(joint.dry_friction for joint in scene.joints.values())
+    rubs = any(joint.dry_friction for joint in scene.joints.values())
+    brakes = rubs and not _lawful(scene, realised)
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided, roped = any(scene.one_sided()), any(scene.limits())
     jointed = realised == "driver" and met and bool(scene.joints)  # no gap is closed in a part
@@ -112,7 +118,8 @@ def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:
         for name, joint in scene.joints.items()
         if joint.shifts and joint.dry_friction and joint.dry_friction.smooth
     }
-    return edges | moved | joints | (blurred if realised == "law" else {})
+    ours = realised == "law" and ruled(scene)
+    return edges | moved | joints | (blurred if ours else {})
 
 
 def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, step: float) -> str:

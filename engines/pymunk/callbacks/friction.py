@@ -1,8 +1,8 @@
 """Dry friction by its law (2.89), (2.95): ours, told to pymunk's friction before every step.
 
 pymunk knows one bound of friction. The law sets it to the mean force of the coming step, and
-pymunk holds with it, or brakes. `ruled` says where the law is known beforehand: on a part that
-nothing else joins or touches.
+pymunk holds with it, or brakes. The law is known beforehand on a part that nothing else joins or
+touches; anywhere else friction stays pymunk's own.
 """
 
 import math
@@ -56,25 +56,38 @@ RESTING = 1e-9  # m/s: a part that neither falls nor rises; above rounding, belo
 
 
 def ruled(scene: Scene) -> bool:
-    """Whether there is dry friction with more than pymunk's one bound, and its law is known."""
+    """Whether there is dry friction with more than pymunk's one bound, and all its laws are known.
+
+    Of some that are known beside others that are not a run would be of neither kind.
+    """
     joints = [j for j in scene.joints.values() if j.dry_friction]
     contacts = [c for c in scene.contacts.values() if _two_bounds(c)]
-    alone = all(j.a.body == GROUND and _only(scene, j.b.body) for j in joints) and all(
-        _only(scene, c.body) and _simple(scene, c) for c in contacts
-    )
-    return bool(joints or contacts) and alone
+    known = [_known_at_joint(scene, j) for j in joints] + [_known_at(scene, c) for c in contacts]
+    return bool(known) and all(known)
 
 
 def laws(world: World, step: float) -> list[Told]:
-    """The functions to call before each step where friction goes by its law."""
-    found: list[Told] = []
-    for joint in world.scene.joints.values():
-        if joint.dry_friction:
-            found.append(_joint(world, joint, joint.dry_friction, step))
-    for contact in world.scene.contacts.values():
-        if _two_bounds(contact):
-            found.append(_contact(world, contact, step))
-    return found
+    """The functions to call before each step where friction goes by its law, which is known."""
+    scene = world.scene
+    if not ruled(scene):
+        return []
+    found = [
+        _joint(world, joint, joint.dry_friction, step)
+        for joint in scene.joints.values()
+        if joint.dry_friction
+    ]
+    contacts = [c for c in scene.contacts.values() if _two_bounds(c)]
+    return [*found, *(_contact(world, contact, step) for contact in contacts)]
+
+
+def _known_at_joint(scene: Scene, joint: Joint) -> bool:
+    """Whether nothing but the ground is joined to what slips there."""
+    return joint.a.body == GROUND and _only(scene, joint.b.body)
+
+
+def _known_at(scene: Scene, contact: Contact) -> bool:
+    """The same of a contact."""
+    return _only(scene, contact.body) and _simple(scene, contact)
 
 
 def _two_bounds(contact: Contact) -> bool:

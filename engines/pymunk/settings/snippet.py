@@ -16,27 +16,32 @@ for body in space.bodies:
     body.position -= h / 2 * body.velocity
     body.angle -= h / 2 * body.angular_velocity
 # read body.position + h / 2 * body.velocity, and body.angle + h / 2 * body.angular_velocity"""
+_IN_THE_MIDDLE = """\
+# what follows a law in time has in step n the law's value at t = n * h + h / 2, and where the law
+# jumps or bends within the step its mean over it: as `show` writes it"""
 _SEEDED = """\
 # what only touches would fall freely for one step
 for body in space.bodies:
     for shape in body.shapes:
         shape.unsafe_set_radius(shape.radius + {seed!r})"""
 _COLD = """\
-for n in range({cold}):  # the first steps have no impulses to begin with
-    space.iterations = {first}
-    space.step(h)
-space.iterations = {usual}  # from here on step as you do"""
+space.iterations = {first}  # of the first {cold} steps, which have no impulses to begin with
+# after them: space.iterations = {usual}"""
 
 
-def snippet(choices: Sequence[Choice], step: float) -> str:
-    """Lines for choices that differ from pymunk's own, to stand between building and stepping."""
+def snippet(choices: Sequence[Choice], step: float, *, timed: bool) -> str:
+    """Lines for choices that differ from pymunk's own, to stand between building and stepping.
+
+    timed: whether something in the scene follows a law in time.
+    """
     before = defaults()
     changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
     sweeps = int(changed.get(_SWEEPS, before[_SWEEPS]))
-    return "\n".join([f"h = {step!r}  # s, for space.step(h)", *_lines(changed, sweeps)]) + "\n"
+    lines = [f"h = {step!r}  # s, for space.step(h)", *_lines(changed, sweeps, timed)]
+    return "\n".join(lines) + "\n"
 
 
-def _lines(changed: Mapping[str, Any], sweeps: int) -> Iterator[str]:
+def _lines(changed: Mapping[str, Any], sweeps: int, timed: bool) -> Iterator[str]:
     yield from (f"{n} = {written(x)}" for n, x in changed.items() if n.startswith("space."))
     joints = {n.partition(".")[2]: x for n, x in changed.items() if n.startswith("constraint.")}
     if joints:
@@ -53,6 +58,8 @@ def _lines(changed: Mapping[str, Any], sweeps: int) -> Iterator[str]:
         yield _SEEDED.format(seed=seed)
     if changed.get("time.midpoint"):
         yield _SHIFTED
+        if timed:
+            yield _IN_THE_MIDDLE
     if (first := changed.get("start.iterations", sweeps)) != sweeps:
         yield _COLD.format(cold=COLD, first=first, usual=sweeps)
     yield from _said(changed)
