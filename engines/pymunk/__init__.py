@@ -94,7 +94,8 @@ class Pymunk:
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Lines of Python for a script with a `space`, as users write it."""
-        return snippet(own(options, scene, start)(step), step, timed=any(scene.laws()))
+        timed = any(law.law != "constant" for law in scene.laws())
+        return snippet(own(options, scene, start)(step), step, timed=timed)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""

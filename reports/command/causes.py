@@ -39,6 +39,7 @@ def causes(
     """
     from ..batch import suite
     from ..batch.cache import store
+    from ..batch.search.why import OFF
     from ..batch.selection import choose_cases, choose_engines
     from ..compare.trial.work import too_long
     from ..output import committed
@@ -69,14 +70,20 @@ def causes(
         code = BAD_INPUT if report.mistakes else 0
         document.write(document.of_causes(report.causes, report.mistakes, exit_code=code))
         raise click.exceptions.Exit(code)
-    _print(report.causes)
+    _print(report.causes, sum(row.verdict in OFF for row in report.comparisons))
     if report.mistakes:
         raise CaseError(report.mistakes)
 
 
-def _print(causes: "Sequence[Cause]") -> None:
-    if not causes:
-        say("every quantity is within its tolerance, in every setting")
+def _print(causes: "Sequence[Cause]", off: int) -> None:
+    """Prints the causes; off: how many rows are above their tolerances, whoever made them."""
+    if not causes and off:
+        say(
+            "nothing to search: no engine's own run is above a tolerance, "
+            f"but {off} rows by laws or drivers of ours are"
+        )
+    elif not causes:
+        say("no quantity is above its tolerance, in any setting")
     for (case, engine, setting), found in groupby(
         causes, key=lambda cause: (cause.case, cause.engine, cause.setting)
     ):

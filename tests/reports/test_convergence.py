@@ -197,3 +197,21 @@ def test_orders_are_of_the_finest_rungs(named: str, was: str) -> None:
     assert order() == pytest.approx(1.0, abs=0.05)
     coarsest = order(otherwise(convergence, was, was.replace("[:LAST]", "[-LAST:]")))
     assert coarsest is None or coarsest > 2.0
+
+
+@pytest.mark.mutant("an error beside an event that no step changes, told as the step's")
+def test_what_stays_beside_an_event_is_not_the_steps() -> None:
+    """One sample just before a switch is 0.28 off at every step; the others are as they should."""
+    rungs, away = ladder(p=2), np.ones(len(T), bool)
+    for samples in rungs.values():
+        samples[7] += 0.28
+    away[7] = False
+    exponents = (2, 3)
+    found = study(rungs, REFERENCE, exponents=exponents, allow=1e-2, floor=1e-13, away=away)
+    assert found.verdict == TEXTBOOK
+    told = cause(found, simplified="one number for friction: pin")
+    assert told == (
+        "beside an event no smaller step helps: 0.28 to 0.28 on every rung; elsewhere the error "
+        "falls with order 2.0; one number for friction: pin"
+    )
+    assert "one number" not in cause(replace(found, usable_step=1e-3), simplified="one number")

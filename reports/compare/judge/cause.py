@@ -1,7 +1,7 @@
 """Why there is a difference, as far as a held ladder tells."""
 
 from ...data import row as of
-from .convergence import Convergence
+from .convergence import FALLEN, Convergence
 
 STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model
 
@@ -11,8 +11,15 @@ def cause(found: Convergence, finer: str = "", simplified: str = "") -> str:
 
     simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
     """
-    left_out = "" if found.verdict in STEPS else simplified
+    left_out = "" if found.verdict in STEPS and not _beside(found) else simplified
     return "; ".join(part for part in (_told(found, finer), left_out) if part)
+
+
+def _beside(found: Convergence) -> bool:
+    """Whether no step changes what is beside an event, though elsewhere errors fall with it."""
+    sizes = found.errors.values()
+    stays = max(sizes) < FALLEN * min(sizes)
+    return found.verdict == of.TEXTBOOK and found.usable_step is None and stays
 
 
 def _told(found: Convergence, finer: str) -> str:
@@ -23,13 +30,16 @@ def _told(found: Convergence, finer: str) -> str:
     order = "" if found.order is None else f" with order {found.order:.1f}"
     limit = f"{found.limit or 0.0:.3g}"
     sizes = found.errors.values()
+    every = f"{min(sizes):.3g} to {max(sizes):.3g} on every rung"
+    if _beside(found):
+        return f"beside an event no smaller step helps: {every}; elsewhere the error falls{order}"
     return {
         of.EXACT: f"the step: {enough}" if usable else "rounding",
         of.TEXTBOOK: f"the step: it falls{order}, {enough}",
         of.WITHIN: f"the step: {enough}; the model's own {limit} would be",
         of.ANOTHER: f"the model: {limit} remains for h → 0",
         of.FALLS: f"the step: its size falls{order or ', with no clear order'}, {enough}",
-        of.STAYS: f"no smaller step helps: {min(sizes):.3g} to {max(sizes):.3g} on every rung",
+        of.STAYS: f"no smaller step helps: {every}",
         of.UNSETTLED: "the ladder has not settled: neither step nor model can be named",
         of.INSTANTS: f"instants of events: {enough}",
     }[found.verdict]
