@@ -20,7 +20,17 @@ from ..system import Array, Guard, Mode, System
 from .event_location import INSIDE, TOGETHER, Fall, Within, clear, first
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
-from .zeno import MOST, ROUNDING, ZenoError, accumulation, ends_here, gone, pile, settles
+from .zeno import (
+    MOST,
+    NEAR,
+    ROUNDING,
+    ZenoError,
+    accumulation,
+    ends_here,
+    gone,
+    pile,
+    settles,
+)
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
@@ -136,6 +146,7 @@ class _Walk:
     passed: float = -math.inf  # the last corner
     spent: int | None = None  # the guard that has just fired, if its mode goes on
     fired: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    passing: set[str] = field(default_factory=set[str])  # those after whose last a motion goes on
 
     def __post_init__(self) -> None:
         look()
@@ -250,6 +261,8 @@ class _Walk:
         parted = self.system.modes[ended].parted(before)
         mode, q, v = guard.then(t, *parted)
         name = guard.event or f"{ended} to {mode}"
+        if guard.at_last is not None:
+            self.passing.add(name)
         following = self._piles_up(name, t, refused=guard.at_last is None)
         if following is not None and guard.at_last is not None:
             last, a = guard.at_last(t, *parted), self.system.modes[mode].accelerations(t, q, v)
@@ -292,11 +305,21 @@ class _Walk:
         limit = accumulation(self.fired[name])
         if not refused:
             return settles(name, self.fired[name], end - begin)
-        if limit is not None and ends_here(limit, t, begin, end):
+        if limit is None or not ends_here(limit, t, begin, end):
+            return None
+        if not self._is_passed(limit, NEAR * (end - begin)):
             raise ZenoError(
                 name, t, f"happens without end before {limit:.6g} s (a Zeno sequence), seen"
             )
         return None
+
+    def _is_passed(self, limit: float, near: float) -> bool:
+        """Whether what piles up there does so between events after whose last a motion goes on.
+
+        Between two bounces friction turns round: both pile up at one time, and the bounces end.
+        """
+        others = (accumulation(self.fired[name]) for name in self.passing)
+        return any(other is not None and abs(other - limit) <= near for other in others)
 
 
 def _falling(mode: Mode, guard: Guard) -> Fall:

@@ -11,6 +11,7 @@ import pytest
 from given import scenes
 from given.watched import Oscillator, Still, Watched
 
+from textmech.cases.mistake import CaseError
 from textmech.reference.motion import follow as event
 from textmech.reference.motion import zeno as module
 from textmech.reference.motion.follow import follow
@@ -215,3 +216,43 @@ def test_the_end_of_bounces_that_fly_on_is_seen(
     monkeypatch.setattr(event, "gone", lambda *_: True)
     with pytest.raises(AssertionError):
         test_two_blows_soon_after_each_other_end_no_motion(5.12743, 1.2, tmp_path)
+
+
+RUBS = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {b: {disk: {mass: 1.0, radius: 0.1}}}
+  joints: {r: {slide: [ground.O, b.center], along: [0, 1], dry_friction: {kinetic: 1.0}}}
+  contacts: {f: {between: [b, ground.floor], friction: 0, restitution: 0.5}}
+initial: {r: {shift: 0.5}}
+events: {l: {f.gap: falls to zero}}
+allow: {b.y: 1.0e-2}
+"""
+
+
+@pytest.mark.slow
+def test_what_rubs_between_bounces_rests_after_the_last(tmp_path: Path) -> None:
+    """Falls of a = g − 1, rises of g + 1: a bounce has e √((g − 1)/(g + 1)) of the speed before.
+
+    It takes v/(g + 1) up and, from v²/2(g + 1), √(…) down; all of them together are geometric.
+    """
+    motion = solve(scenes.typed(tmp_path, RUBS, tail=scenes.tail(1.2, 41)))
+    assert motion.holds
+    g, e = 9.80665, 0.5
+    v, share = math.sqrt(2 * (g - 1) * 0.4), e * math.sqrt((g - 1) / (g + 1))
+    up = e * v / (g + 1)
+    known = v / (g - 1) + up * (1 + math.sqrt((g + 1) / (g - 1))) / (1 - share)
+    (pile,) = motion.trajectory.endless
+    assert pile[-1] == pytest.approx(known, abs=2e-6)
+    last = motion.trajectory.states["b"][-1]
+    assert last[1] == pytest.approx(0.1, abs=1e-12)
+    assert not last[3:].any()
+
+
+@pytest.mark.mutant("what turns round between bounces without end ends the motion")
+def test_friction_that_ends_the_bounces_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(event._Walk, "_is_passed", lambda *_: False)
+    with pytest.raises(CaseError, match="'r stops' happens thousands of times or without end"):
+        solve(scenes.typed(tmp_path, RUBS, tail=scenes.tail(1.2, 41)))
