@@ -403,8 +403,8 @@ class Closure:
 
 
 def value_text(value: float, kind: str) -> str:
-    """A shift or a turn as a file has it."""
-    return f"{value:.4g} m" if kind == "shift" else f"{value * DEGREES:.4g} deg"
+    """A shift or a turn as a file has it; of a turn nothing that is rounding."""
+    return f"{value:.4g} m" if kind == "shift" else f"{round(value * DEGREES, 9) + 0.0:.4g} deg"
 
 
 def joined(names: Iterable[str], links: Iterable[set[str]]) -> list[set[str]]:

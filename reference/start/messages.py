@@ -1,6 +1,7 @@
 """Why a start is refused, in words, at their places in the file."""
 
 import math
+from collections.abc import Mapping
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError
@@ -23,13 +24,19 @@ def stays_open(
     return initial(case, f"{why}: {part} stays open by {size}")
 
 
-def several(case: Case, count: int, coordinate: str, values: list[str]) -> CaseError:
-    """Ways to assemble, told by one coordinate."""
-    part, _, field = coordinate.partition(".")
+def several(
+    case: Case, count: int, coordinate: str, values: list[str], near: Mapping[str, str]
+) -> CaseError:
+    """Ways to assemble, told by one coordinate; near: what would choose one of them."""
+    parts: dict[str, list[str]] = {}
+    for name, value in near.items():
+        part, _, field = name.partition(".")
+        parts.setdefault(part, []).append(f"{field}: {value}")
+    said = ", ".join(f"{part}: {{{', '.join(fields)}}}" for part, fields in parts.items())
     return initial(
         case,
         f"the mechanism can be assembled in {count} ways: {coordinate} = {' or '.join(values)}; "
-        f"say which by `near`, for instance near: {{{part}: {{{field}: {values[0]}}}}}",
+        f"say which by `near`, for instance near: {{{said}}}",
     )
 
 

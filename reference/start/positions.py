@@ -90,10 +90,19 @@ def _cannot_close(closure: Closing, q: Array, gap: float) -> CaseError:
 
 
 def _several_ways(closure: Closing, ways: list[Array]) -> CaseError:
-    """Names the coordinate in which the ways differ most, with its values."""
+    """Names the coordinate in which the ways differ most, and those that tell one from all others.
+
+    The first with its values, all of them as they are in one of the ways.
+    """
     name = closure.distinguishing(ways)
     values = list(dict.fromkeys(closure.shown(q, name) for q in ways))
-    return messages.several(closure.case, len(ways), name, values)
+    first, near, left = ways[0], dict[str, str](), ways
+    while len(left) > 1:
+        tells = closure.distinguishing(left)
+        near[tells] = closure.shown(first, tells)
+        alike = [q for q in left if closure.shown(q, tells) == near[tells]]
+        left = alike if len(alike) < len(left) else [first]
+    return messages.several(closure.case, len(ways), name, values, near)
 
 
 def _none_near(closure: Closing, way: Array, found: list[Array]) -> CaseError:

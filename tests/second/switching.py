@@ -85,8 +85,8 @@ def after(now: Any, states: list[tuple[Site, str]], strikes: set[Site]) -> Array
         N, rate = P.get((s.part, "normal"), 0.0), float(s.gap(now).J @ u)
         if min(N, 0.0) < -small or (state == OPEN and rate < -CLOSE):
             return None
-        if s.slip and state == STICK and abs(P[s.part, "tangent"]) > s.holds(N, 0.0) + small:
-            return None
+        if s.slip and state == STICK and abs(P[s.part, "tangent"]) > s.rubs(N, 1.0) + small:
+            return None  # a blow rubs by the kinetic coefficient
         if s.slip and state in "+-":
             sign = 1.0 if state == "+" else -1.0
             if sign * float(s.slip(now).J @ u) < -CLOSE:

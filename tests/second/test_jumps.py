@@ -7,6 +7,7 @@ import pytest
 from given import scenes
 
 from second import answer, read, switching
+from textmech.reference.solve import solve
 
 M, MU, PUSH, AT, G = 2.0, 0.5, 15.0, 0.5, 9.80665
 SCENE = f"""\
@@ -57,3 +58,28 @@ def test_a_mode_that_outlives_a_jump_is_seen(
 
     monkeypatch.setattr(switching, "next_mode", kept)
     assert off(tmp_path) > 1e-3
+
+
+FALLS = """\
+scene:
+  bodies: {bob: {particle: {mass: 0.25}}}
+  contacts: {c: {between: [bob, ground.floor], friction: {static: 0.59, kinetic: 0.34}}}
+initial: {bob: {x: 0, y: 0.45, vx: -1.1}}
+events: {lands: {c.gap: falls to zero}}
+allow: {bob.x: 1.0e-3}
+"""
+
+
+@pytest.mark.slow
+def test_a_blow_rubs_by_the_kinetic_coefficient_in_both_readings(tmp_path: Path) -> None:
+    """It arrives with v = √(2 g 0.45 m) and keeps 1.1 − 0.34 v, which 0.59 v would stop."""
+    case = scenes.typed(tmp_path, FALLS, tail=scenes.tail(0.6, 7))
+    v = (2 * G * 0.45) ** 0.5
+    left = 1.1 - 0.34 * v
+    assert left > 0 > 1.1 - 0.59 * v
+    known = -1.1 * v / G - left**2 / (2 * 0.34 * G)
+    (told,) = read.file(tmp_path / "typed.yaml").values()
+    motion = solve(case)
+    assert motion.holds
+    assert motion.trajectory.states["bob"][-1, 0] == pytest.approx(known, abs=1e-12)
+    assert answer.observed(answer.motion(told), "bob.x")[-1] == pytest.approx(known, abs=1e-7)

@@ -20,7 +20,7 @@ from ..constraints.contact import at_rest
 from ..kinematics.kinematics import Layout
 from .element import Element, State
 
-ROUNDING = 1e-15  # of the weight: a level slide has some angle, rounded
+ROUNDING = 1e-15  # of weights and of m v²/l: a level slide has some angle, rounded
 # Of the speed at the start: an integrator's rounding keeps a speed from falling any further, while
 # the way that is left, v^{2−α} m/((2 − α) d), is lost in the rounding of the place.
 LEAST = 1e-14
@@ -31,7 +31,8 @@ class Stopping(Element):
     """The slide.
 
     oils: its viscous friction, and `exponent` the smallest of theirs. least: a speed [m/s] that is
-    none. room: what rounding makes of the weight along the slide [N], which sets nothing off.
+    none. room: what rounding makes along the slide of weights, and of what else keeps all bodies on
+    their ways [N], which sets nothing off.
     """
 
     oils: tuple[str, ...]
@@ -55,13 +56,17 @@ class Stopping(Element):
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.86) ∓F_a [N]: anything that pushes sets it off."""
         F_a = -forces[f"{self.name}.friction"]
-        return self.room - F_a, self.room + F_a
+        room = max(self.room, ROUNDING * max(map(abs, forces.values())))
+        return room - F_a, room + F_a
 
 
 def stopping(scene: Scene, where: Layout, speed: float) -> Iterator[Stopping]:
     """The slides without dry friction; speed [m/s] at the start, of anything."""
     oils = list(of(Viscous, scene.forces.values()))
-    weight = math.hypot(*scene.gravity) * sum(body.mass for body in scene.bodies.values())
+    lengths = [abs(x) for b in scene.bodies.values() for p in b.points.values() for x in p]
+    turning = speed * speed / (max(lengths, default=0.0) or 1.0)
+    force = math.hypot(*scene.gravity) + turning
+    force *= sum(body.mass for body in scene.bodies.values())
     for joint in scene.joints.values():
         mine = [force for force in oils if force.joint == joint.name]
         exponent = min((force.exponent for force in mine), default=1.0)
@@ -69,5 +74,5 @@ def stopping(scene: Scene, where: Layout, speed: float) -> Iterator[Stopping]:
             yield Stopping(
                 name=joint.name, slip=at_rest(joint, where),
                 oils=tuple(force.name for force in mine), exponent=exponent,
-                least=LEAST * (speed or 1.0), room=ROUNDING * weight,
+                least=LEAST * (speed or 1.0), room=ROUNDING * force,
             )  # fmt: skip

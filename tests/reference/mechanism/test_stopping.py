@@ -99,3 +99,32 @@ def test_a_root_is_bracketed_by_what_was_asked_for() -> None:
 
     assert crossing._root(g, 0.0, 1.0) <= 1.0
     assert crossing._root(lambda at: -1.0, 0.25, 1.0) == 0.25
+
+
+CARRIED = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies:
+    c0: {block: {mass: 1, width: 0.3, height: 0.2}}
+    c1: {block: {mass: 1, width: 0.3, height: 0.2}}
+  joints:
+    r0: {slide: [ground.O, c0.center], along: [2, 1]}
+    r1: {slide: [c0.center, c1.center], along: [-1, 2]}
+  forces: {v0: {viscous: r0, coefficient: 3, exponent: ALPHA}}
+initial: {r0: {shift: 0, speed: 0}, r1: {shift: 0.1, speed: 0.7}}
+allow: {c1.y: 0.01}
+"""
+
+
+@pytest.mark.mutant("rounding of what another part does sets off a slide that nothing pushes")
+@pytest.mark.parametrize("alpha", [0.1, 0.5])
+def test_what_coasts_across_sets_nothing_off(alpha: float, tmp_path: Path) -> None:
+    """No force acts along the lower slide, which rests: 1e-31 N are left of what turns nothing."""
+    text = CARRIED.replace("ALPHA", repr(alpha))
+    motion = solve(scenes.typed(tmp_path, text, tail=scenes.tail(0.2, 11)))
+    assert motion.holds
+    way = (0.1 + 0.7 * motion.trajectory.times) / math.sqrt(5)
+    states = motion.trajectory.states
+    assert states["c0"] == pytest.approx(0.0, abs=1e-15)
+    np.testing.assert_allclose(states["c1"][:, :2], np.outer(way, [-1, 2]), atol=1e-14)

@@ -1,6 +1,7 @@
 """Starts that a case file describes, and what follows from them."""
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from given import scenes
 from given.linkages import BAR, FOUR_BAR, PAIR, SLIDER_CRANK
 
+from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.start.assembly import assemble
 from textmech.reference.system import Array
@@ -209,3 +211,31 @@ allow: {wheel.x: 1.0e-2}
 """
     q, v = start(tmp_path, text)
     assert (q["wheel.y"], v["wheel.x"]) == pytest.approx((0.25, 0.5), abs=1e-15)
+
+
+STACK = """\
+scene:
+  bodies:
+    lo: {block: {mass: 1, width: 1.2, height: 0.2}}
+    up: {block: {mass: 1, width: 0.3, height: 0.2}}
+  contacts:
+    a: {between: [lo.lower_left, ground.floor], friction: 0.3}
+    b: {between: [lo.lower_right, ground.floor], friction: 0.3}
+    c: {between: [up.lower_left, lo.top], friction: 0.3}
+    d: {between: [up.lower_right, lo.top], friction: 0.3}
+initial: {lo: {x: 0, on: [lower_left, lower_right]}, up: {x: 0.055, on: [lower_left, lower_right]}}
+allow: {up.x: 0.01}
+"""
+
+
+@pytest.mark.slow
+def test_the_advice_tells_one_way_from_all_others(tmp_path: Path) -> None:
+    """Each of two blocks may stand on its head; an angle of rounding is none."""
+    with pytest.raises(CaseError) as caught:
+        assemble(scenes.typed(tmp_path, STACK))
+    (mistake,) = caught.value.mistakes
+    assert "in 4 ways: up.angle = 0 deg or 180 deg; say which" in mistake.what
+    (advice,) = re.findall("for instance (near: .*)$", mistake.what)
+    assert advice.count("angle") == 2
+    q, _ = assemble(scenes.typed(tmp_path, f"{STACK}{advice}\n"))
+    assert q == pytest.approx([0, 0.1, 0, 0.055, 0.3, 0], abs=1e-12)
