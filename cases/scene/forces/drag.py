@@ -13,9 +13,12 @@ from ...fields.kind import Fields
 from ...fields.part import Direction
 from ...trajectory import ANGLE, Array
 from ..body import Body
+from ..frame import PLANE
 from ..motion import Motion
 from ..point import GROUND, Anchor
 from .element import Force
+
+ROUNDING = 1e-15  # of the largest velocity: a speed that is none
 
 
 @dataclass(frozen=True)
@@ -147,6 +150,10 @@ class Viscous(Force):
         speed = motion.joints[self.joint].observe(motion, "slip")
         if field == "speed":
             return speed
+        if self.exponent < 1:  # with its steep root rounding of what rests would be a force
+            states = motion.trajectory.states.values()
+            fastest = max(float(np.max(np.abs(s[:, PLANE.velocity]))) for s in states)
+            speed = np.where(np.abs(speed) <= ROUNDING * fastest, 0.0, speed)
         d = np.where(speed > 0, self.coefficient.forward, self.coefficient.backward)
         return -d * np.copysign(np.abs(speed) ** self.exponent, speed)
 

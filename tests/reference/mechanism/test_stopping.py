@@ -10,6 +10,8 @@ from given import scenes
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
+from textmech.cases.scene.forces import drag
+from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes.stopping import Stopping
 from textmech.reference.motion import event_location as crossing
 from textmech.reference.motion.follow import follow
@@ -128,3 +130,35 @@ def test_what_coasts_across_sets_nothing_off(alpha: float, tmp_path: Path) -> No
     states = motion.trajectory.states
     assert states["c0"] == pytest.approx(0.0, abs=1e-15)
     np.testing.assert_allclose(states["c1"][:, :2], np.outer(way, [-1, 2]), atol=1e-14)
+
+
+SKEW = """\
+scene:
+  points: {O: [0, 1.0], A: [0.7, 0.9]}
+  bodies:
+    c0: {block: {mass: 1.087, width: 0.3, height: 0.2}}
+    c1: {block: {mass: 0.721, width: 0.3, height: 0.2}}
+  joints:
+    r0: {slide: [ground.O, c0.center], along: [-0.044, 0.761]}
+    r1: {slide: [c0.center, c1.center], along: [-0.421, 0.586]}
+  forces:
+    v0: {viscous: r0, coefficient: 3.655, exponent: 0.1}
+    s0: {spring: [ground.A, c0.center], stiffness: 22.352, rest_length: 0.236}
+  drive: {r1.speed: {polynomial: {coefficients: [0.565, 0.9, -0.224]}}}
+initial: {r0: {shift: -0.169, speed: 0}, r1: {shift: 0.143}}
+allow: {v0.force: 1.0e-2}
+"""
+
+
+@pytest.mark.mutant("rounding of a speed that is none has a viscous force by its root")
+def test_what_starts_at_no_speed_has_no_viscous_force(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The slides are skew, and of the start's rates 1e-18 m/s are left: 0.05 N by |v|^0.1."""
+    case = scenes.typed(tmp_path, SKEW, tail=scenes.tail(0.2, 11))
+    motion = solve(case)
+    assert motion.holds
+    assert observe(case.scene, motion.trajectory, "v0.force")[0] == 0.0
+    assert abs(observe(case.scene, motion.trajectory, "v0.force")[1]) > 1.0
+    monkeypatch.setattr(drag, "ROUNDING", 0.0)
+    assert abs(observe(case.scene, motion.trajectory, "v0.force")[0]) > 1e-2
