@@ -19,6 +19,7 @@ from ..cases.scene.frame import SPACE
 from ..cases.scene.islands import apart
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
+from .mechanism.forces.action import NoDirection
 from .mechanism.modes.impact_transition import OneInstant
 from .mechanism.modes.mechanism import BadStart, Mechanism
 from .mechanism.modes.mode_selection import Undetermined
@@ -62,6 +63,9 @@ def refusals(case: Case, generated: Mechanism) -> Iterator[None]:
         yield
     except (BadStart, Undetermined, ZenoError, Stuck) as failure:
         raise CaseError([_mistake(case, generated, failure)]) from failure
+    except NoDirection as short:
+        what = "has no length at the start, and so no direction; start it elsewhere"
+        raise CaseError([case.mistake(("scene", "forces", str(short)), what)]) from short
 
 
 def unreached(case: Case, joint: str, t: float) -> CaseError:

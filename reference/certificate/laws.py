@@ -16,6 +16,7 @@ from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton
 from ..formalisms.dependent import dependent
 from ..formalisms.lagrange import constraint_rows, derivative, rate_matrix
 from ..integrators.now import reached
+from ..mechanism.forces.action import NoDirection
 from ..mechanism.modes.mechanism import Mechanism
 from ..mechanism.modes.mode import Multibody
 from ..mechanism.modes.spatial_mode import SpatialMultibody
@@ -53,8 +54,15 @@ class Scale:
         """
         place = self.base.place(mode.poses(t, q, v))
         forces = self.base.largest(t, *place)
-        held = np.abs(self.base.solve(t, *place)[1] @ self.base.f_a(t, place[0]))
-        return self.base.terms(t, *place)[0], worst((forces + held) * self.speeds)
+        return self.base.terms(t, *place)[0], worst((forces + self._held(t, *place)) * self.speeds)
+
+    def _held(self, t: float, q: Array, v: Array) -> Array:
+        """(n,) what holds it; nothing where a spring that is slack has no direction."""
+        try:
+            multipliers = self.base.solve(t, q, v)[1]
+        except NoDirection:
+            return np.zeros(len(v))
+        return np.abs(multipliers @ self.base.f_a(t, q))
 
     def alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
         """The largest acceleration that one force gives alone, or a turn in space: ω × J ω is one.

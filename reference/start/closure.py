@@ -163,8 +163,8 @@ class Closure:
 
     def equations(self, q: Array) -> tuple[Array, Array]:
         """f = 0 in units of the size: residuals (k,) and rows (k, n)."""
-        table = self._table(self.parts)
-        f = residuals(table, self.parts, 0.0, q.tolist())
+        held = self._places.any()  # else there is nothing that (2.14) would be of
+        f = residuals(self._table(self.parts), self.parts, 0.0, q.tolist()) if held else []
         told = list(self.equations_of(self.case.initial, q))
         angular = np.append(self._angular(self.parts)[self._places], [e.angular for e in told])
         units = np.where(angular, 1.0, self.size)

@@ -56,6 +56,31 @@ def test_a_spring_that_loses_its_length_on_the_way(tmp_path: Path) -> None:
     assert f"beyond t = {t:.4g} s: coil has no length there" in mistake.what
 
 
+RUBS = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {c: {particle: {mass: 1}}}
+  joints: {rail: {slide: [ground.O, c.center], along: [1, 0], dry_friction: {kinetic: 2}}}
+  forces: {coil: {spring: [ground.O, c.center], stiffness: 3, rest_length: 0.2 ONLY}}
+initial: {c: {x: 0, vx: 3}}
+allow: {c.x: 1.0e-2}
+"""
+
+
+@pytest.mark.mutant("a slack spring without length makes every speed beside it rounding")
+def test_a_spring_without_length_at_the_start_of_what_rubs(tmp_path: Path) -> None:
+    """What sticks or slides is asked before any step; and what is slack needs no direction."""
+    mistake = refused(scenes.typed(tmp_path, RUBS.replace("ONLY", "")))
+    assert mistake.where == "scene.forces.coil"
+    assert mistake.what.startswith("has no length at the start, and so no direction")
+    slack = scenes.typed(
+        tmp_path, RUBS.replace("ONLY", ", only: tension"), tail=scenes.tail(0.05, 6)
+    )
+    x = solve(slack).trajectory.states["c"][:, 0]
+    assert x == pytest.approx(3 * slack.times - slack.times**2, abs=1e-13)  # 2 N on 1 kg
+
+
 MUSCLE = """\
 scene:
   gravity: none

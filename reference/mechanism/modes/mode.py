@@ -224,9 +224,12 @@ class Multibody(Mode):
         return float(np.max(largest / self._M)), float(np.max(powers))
 
     def largest(self, t: float, q: Array, v: Array) -> Array:
-        """The largest force [N] or moment [N m] along each coordinate that comes from one force."""
+        """The largest force [N] or moment [N m] along each coordinate that comes from one force.
+
+        One along a line without length has no direction, and no part in it: it may be slack.
+        """
         each = [self._weight, *self.forces(t, q, v).values()]
-        return np.max(np.abs(each), axis=0)
+        return np.max(np.nan_to_num(np.abs(each), nan=0.0), axis=0)
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""

@@ -10,6 +10,7 @@ from ....cases.scene import Scene
 from ...system import MOVING, Array
 from ..constraints.constraint import Constraint, row
 from ..constraints.leeway import Leeway
+from ..forces.action import NoDirection
 from .element import Element, Smoothed, State, elements
 from .loose import Loose, independent
 from .mode import Multibody
@@ -191,8 +192,14 @@ class Modes(Mapping[str, Multibody]):
         """
         before = [math.nextafter(corner, -math.inf) for corner in self.corners]
         times = [0.0, *self.corners, *before]
-        turning = float(np.max(np.abs(self.base.accelerations(0.0, *self.start)), initial=0.0))
-        return max(turning, *(self.base.terms(t, *self.start)[0] for t in times))
+        return max(self._turning(), *(self.base.terms(t, *self.start)[0] for t in times))
+
+    def _turning(self) -> float:
+        """The largest acceleration at the start with all springs acting; 0 where one cannot."""
+        try:
+            return float(np.max(np.abs(self.base.accelerations(0.0, *self.start)), initial=0.0))
+        except NoDirection:
+            return 0.0
 
     def still(self, t: float, q: Array, v: Array, *, part: float) -> float:
         """A speed that is none [m/s]: that part of the motion's, and what forces give so early.
