@@ -186,7 +186,7 @@ def check_alone(
     """
     first, small = modes.elements[i], ROUNDING * float(np.max(np.abs(v)))
     others = [
-        e
+        (e, state)
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
         if _shares(first, e, state)
         if state != "open" or strikes_too(e, t, q, v, near)
@@ -197,13 +197,16 @@ def check_alone(
         alone, _ = impact(modes.M, held, [m for m in met if m.strikes], v)
     except NoImpact:
         return  # with all that touch it is tried again, and told
-    for e in others:
+    for e, state in others:
         assert e.normal is not None
         before, now = rate(e.normal, t, q, v), rate(e.normal, t, q, alone.v)
         if now < -small and abs(now - before) > small:
+            both = f"{first.name} and {e.name} strike at one instant, t = {t:.4g} s"
+            if state != "open":
+                both = f"{first.name} strikes at t = {t:.4g} s what {e.name} touches and passes on"
             what = (
-                f"{first.name} and {e.name} strike at one instant, t = {t:.4g} s: rigid bodies do "
-                "not say how the blow is divided; leave a gap, so that one strikes after the other"
+                f"{both}: rigid bodies do not say how the blow is divided; leave a gap, so that "
+                "one strikes after the other"
             )
             raise OneInstant(first.name, what, t)
 
