@@ -12,10 +12,10 @@ from .planar_closure import PlanarClosure
 from .search import BESIDE, DEAD, FAR, NEAR, RANK, SAME, least_of, null, search
 from .spatial_closure import SpatialClosure
 
-Closing = PlanarClosure | SpatialClosure
+EitherClosure = PlanarClosure | SpatialClosure
 
 
-def positions(closure: Closing) -> Array:
+def positions(closure: EitherClosure) -> Array:
     """q that satisfies all equations, with what is given in its place.
 
     Raises CaseError if there is none, more than one to choose from, or a coordinate is left open.
@@ -34,7 +34,7 @@ def positions(closure: Closing) -> Array:
     return ways[0]
 
 
-def _guesses(closure: Closing, ways: list[Array]) -> Iterator[Array]:
+def _guesses(closure: EitherClosure, ways: list[Array]) -> Iterator[Array]:
     """First guesses of q: what is near, some beside it, and any; ways: what was found of them.
 
     Where one way is so near to what `near` says that only nearer ones would matter, the last are
@@ -52,12 +52,12 @@ def _guesses(closure: Closing, ways: list[Array]) -> Iterator[Array]:
     yield from closure.anywhere()
 
 
-def nearest_ways(closure: Closing, ways: list[Array]) -> list[Array]:
+def nearest_ways(closure: EitherClosure, ways: list[Array]) -> list[Array]:
     """The one that is nearest to what `near` says, or several that are as near as each other."""
     return closure.preferred(least_of(ways, [closure.distance(q) for q in ways], SAME))
 
 
-def _determined(closure: Closing, q: Array) -> None:
+def _determined(closure: EitherClosure, q: Array) -> None:
     """Refuses what leaves coordinates open: for good, or at a dead centre."""
     rows = closure.equations(q)[1][:, closure.free]
     for below in (RANK, DEAD):
@@ -75,7 +75,7 @@ def _determined(closure: Closing, q: Array) -> None:
 # Why there is no start, in words that name the part and the number.
 
 
-def _cannot_close(closure: Closing, q: Array, gap: float) -> CaseError:
+def _cannot_close(closure: EitherClosure, q: Array, gap: float) -> CaseError:
     """No positions satisfy the equations; q is the best that was found."""
     if not np.isfinite(gap):
         return messages.flat(closure.case)
@@ -89,7 +89,7 @@ def _cannot_close(closure: Closing, q: Array, gap: float) -> CaseError:
     return messages.stays_open(closure.case, why, part, size, closure.size, turns=turns)
 
 
-def _several_ways(closure: Closing, ways: list[Array]) -> CaseError:
+def _several_ways(closure: EitherClosure, ways: list[Array]) -> CaseError:
     """Names the coordinate in which the ways differ most, and those that tell one from all others.
 
     The first with its values, all of them as they are in one of the ways.
@@ -105,7 +105,7 @@ def _several_ways(closure: Closing, ways: list[Array]) -> CaseError:
     return messages.several(closure.case, len(ways), name, values, near)
 
 
-def _none_near(closure: Closing, way: Array, found: list[Array]) -> CaseError:
+def _none_near(closure: EitherClosure, way: Array, found: list[Array]) -> CaseError:
     """No way is where `near` says; told by what is farthest from it, and from the nearest on."""
     off = closure.off(way, turns=True)
     name = max(off, key=off.__getitem__)
