@@ -9,6 +9,7 @@ from .closure import Closure, Rows, joined
 from .search import null, rank
 
 LOOSE = 1e-6  # of a direction's largest entry: smaller ones are rounding
+ROUNDING = 1e-15  # of the fastest: a drag with an exponent below 1 would make a force of it
 
 
 def rates(closure: Closure, q: Array) -> Array:
@@ -25,9 +26,9 @@ def rates(closure: Closure, q: Array) -> Array:
         columns = closure.columns(bodies)
         free = [i for i in columns if i not in given]
         mine = held.about(columns), resting.about(columns)
-        v[columns] = (
-            _of_one(closure, *mine, v / closure.units, free)[columns] * closure.units[columns]
-        )
+        found = _of_one(closure, *mine, v / closure.units, free)
+        found[np.abs(found) <= ROUNDING * np.max(np.abs(found), initial=0.0)] = 0.0
+        v[free] = found[free] * closure.units[free]  # a rate that is given stays to the bit
     closure.refuse_rates(q, v / closure.units)
     return v
 

@@ -21,6 +21,15 @@ from .element import Force
 ROUNDING = 1e-15  # of the largest velocity: a speed that is none
 
 
+def _moving(speed: Array, exponent: float, motion: Motion) -> Array:
+    """(N,) the speed, 0 where it is rounding and α < 1, whose steep root would make a force of it."""
+    if exponent >= 1:
+        return speed
+    states = motion.trajectory.states.values()
+    fastest = max(float(np.max(np.abs(s[:, PLANE.velocity]))) for s in states)
+    return np.where(np.abs(speed) <= ROUNDING * fastest, 0.0, speed)
+
+
 @dataclass(frozen=True)
 class Drag(Force):
     """(2.84), (2.86) F = −d |v|^α v/|v| on a point of a body; d is the force at 1 m/s.
@@ -76,14 +85,14 @@ class Drag(Force):
         """(N, 2) [N]."""
         velocity = motion.point(self.at)[:, 2:]
         if self.along is None:
-            speed = np.hypot(*velocity.T)[:, None]
+            speed = _moving(np.hypot(*velocity.T), self.exponent, motion)[:, None]
             size = -self.coefficient * speed**self.exponent
             return size * velocity / np.where(speed, speed, 1.0)
         angle, (a, b) = motion.trajectory.states[self.at.body][:, ANGLE], self.along
         x, y = np.cos(angle) * a - np.sin(angle) * b, np.sin(angle) * a + np.cos(angle) * b
         force = np.zeros_like(velocity)
         for edge, d in zip(([x, y], [-y, x]), self.ways, strict=True):
-            speed = np.sum(np.transpose(edge) * velocity, axis=1)
+            speed = _moving(np.sum(np.transpose(edge) * velocity, axis=1), self.exponent, motion)
             size = -np.where(speed > 0, d.forward, d.backward) * np.abs(speed) ** self.exponent
             force += np.transpose(edge * (size * np.sign(speed)))
         return force
@@ -150,10 +159,7 @@ class Viscous(Force):
         speed = motion.joints[self.joint].observe(motion, "slip")
         if field == "speed":
             return speed
-        if self.exponent < 1:  # with its steep root rounding of what rests would be a force
-            states = motion.trajectory.states.values()
-            fastest = max(float(np.max(np.abs(s[:, PLANE.velocity]))) for s in states)
-            speed = np.where(np.abs(speed) <= ROUNDING * fastest, 0.0, speed)
+        speed = _moving(speed, self.exponent, motion)
         d = np.where(speed > 0, self.coefficient.forward, self.coefficient.backward)
         return -d * np.copysign(np.abs(speed) ** self.exponent, speed)
 

@@ -16,6 +16,7 @@ from textmech.reference.mechanism.modes.stopping import Stopping
 from textmech.reference.motion import event_location as crossing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
+from textmech.reference.start import rates as start_rates
 from textmech.reference.start.assembly import mechanism
 
 M, D, V = 1.3, 0.8, 3.0  # kg, N at 1 m/s, m/s
@@ -151,14 +152,17 @@ allow: {v0.force: 1.0e-2}
 
 
 @pytest.mark.mutant("rounding of a speed that is none has a viscous force by its root")
+@pytest.mark.parametrize("slows", ["viscous: r0", "drag: c0.center"])
 def test_what_starts_at_no_speed_has_no_viscous_force(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, slows: str
 ) -> None:
     """The slides are skew, and of the start's rates 1e-18 m/s are left: 0.05 N by |v|^0.1."""
-    case = scenes.typed(tmp_path, SKEW, tail=scenes.tail(0.2, 11))
+    case = scenes.typed(tmp_path, SKEW.replace("viscous: r0", slows), tail=scenes.tail(0.2, 11))
     motion = solve(case)
     assert motion.holds
     assert observe(case.scene, motion.trajectory, "v0.force")[0] == 0.0
     assert abs(observe(case.scene, motion.trajectory, "v0.force")[1]) > 1.0
     monkeypatch.setattr(drag, "ROUNDING", 0.0)
-    assert abs(observe(case.scene, motion.trajectory, "v0.force")[0]) > 1e-2
+    monkeypatch.setattr(start_rates, "ROUNDING", 0.0)
+    rounded = solve(case).trajectory
+    assert abs(observe(case.scene, rounded, "v0.force")[0]) > 1e-3
