@@ -74,14 +74,14 @@ class Landings:
         self._begun = True
         if any(foot.stands for foot in self.feet):
             self._drift(step / 2)
-            self._strike([])
+            self._strike([], step)
             self._drift(-step / 2)
 
     def _cut(self, step: float) -> None:
         self._drift(step / 2)
         left = step
         if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
-            self._strike(late)  # as the step before ended, by a little more than it had foreseen
+            self._strike(late, step)  # as the step before ended, by a little more than it had foreseen
         for _ in range(_PARTS * len(self.feet)):
             after = [
                 foot.after(left) for foot in self.feet if foot.is_above and foot.comes(0.0, left)
@@ -91,7 +91,7 @@ class Landings:
             self._part(min(after), step)
             left -= min(after)
             if down := [foot for foot in self.feet if foot.is_down]:
-                self._strike(down)
+                self._strike(down, step)
         self._part(left, step)
         self._drift(-step / 2)
 
@@ -108,10 +108,10 @@ class Landings:
         self._lengths.take(length)
         self.world.share[0] = length / step
 
-    def _strike(self, struck: Sequence[Foot]) -> None:
+    def _strike(self, struck: Sequence[Foot], step: float) -> None:
         for foot in struck:
             self._stand(foot)
-            foot.touch()
+            foot.touch(step)
         self._lay(NO_TIME, strikes=True)
         self._lengths.impact()
         self._moved()

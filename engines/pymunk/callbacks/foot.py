@@ -62,7 +62,7 @@ class Foot:
         self._place = *self._point, *self._normal, *contact.plane.at, self.part.radius or 0.0
         # As pymunk has been told, which costs more than to look here.
         self._met, self._radius, self._elasticity = True, self.shape.radius, self.shape.elasticity
-        self._slips = (0.0, 0.0)
+        self._back, self._slips = contact.restitution, (0.0, 0.0)
 
     def gap(self, ahead: float, falls: float = 0.0) -> float:
         """How high [m] it is along its velocity, so long [s] ahead; falls: of that freely [s]."""
@@ -116,9 +116,7 @@ class Foot:
         *_, cos, sin = self.carrier.pose(length, 0.0)
         self.shape.unsafe_set_offset(over(self._normal, self._point, cos, sin))
         stays = self.stands and not strikes
-        elasticity = 1.0 if stays else self.contact.restitution
-        if elasticity != self._elasticity:
-            self.shape.elasticity = self._elasticity = elasticity
+        self._throw(1.0 if stays else self._back)
         if self.contact.ideal == "pivot":
             self._carry(self._slip(cos, sin) if stays else 0.0)
 
@@ -142,15 +140,27 @@ class Foot:
         if (slips := (slip * ux, slip * uy)) != self._slips:
             self.shape.surface_velocity = self._slips = slips
 
-    def touch(self) -> None:
-        """It touches from here on; a disk, as at the start, a little deeper."""
+    def _throw(self, elasticity: float) -> None:
+        if elasticity != self._elasticity:
+            self.shape.elasticity = self._elasticity = elasticity
+
+    def touch(self, step: float) -> None:
+        """It touches from here on; a disk, as at the start, a little deeper.
+
+        A bounce that would be over within a step [s] is the last of its pile, and throws nothing
+        back: else each step would end in one, and pymunk tells no force of what lasts no time.
+        """
         self.stands = True
+        thrown = self.contact.restitution * (self.gap(0.0) - self.gap(step))
+        is_last = thrown < self.gap(step) - self.gap(step, step)
+        self._back = 0.0 if is_last else self.contact.restitution
+        self._throw(self._back)
         if self._is_disk:
             self._sink(self.gap(0.0) + self._seed)
 
     def bounce(self) -> None:
         """Let the foot touch no longer after it has been thrown back."""
-        if self.contact.restitution:
+        if self._back:
             self.stands = False
             if self._is_disk:
                 self._sink(-self._seed)
