@@ -18,7 +18,7 @@ from ..task_results import Results
 from ..tasks import Pair
 from .candidate import Candidate
 from .cause_rows import NONE, NOTHING, Asked, by_ladder, by_ours, climbed, searched, without
-from .change import STEP, Field, halved, levers, remainder
+from .change import STEP, Field, halved, levers, remainder, wholes
 from .cures import Cured, cures
 from .parallel_search import Search, lost, together
 from .solving import solved
@@ -184,15 +184,15 @@ def between(pair: Pair) -> Field:
     case, engine = pair.case, pair.engine
     assert isinstance(engine, Tunable)
     step, start = judged_step(case, engine), first(pair.reference())
+    knobs = engine.knobs(case.scene, start)
     if engine.setting == "tuned":
         base = Candidate.of(engine.recipe(case.scene, start), step)
         steps = halved(step, step / FINEST)
-        return Field(base, [STEP], steps, steps)
+        return Field(base, [STEP], steps, steps, wholes=wholes(knobs))
     own = {k: v for k, v in getattr(engine, "options", {}).items() if k != "step"}
     best = [engines.make(engine.name, "tuned")] if "tuned" in engines.settings(engine.name) else []
     least = min((judged_step(case, tuned) for tuned in best), default=step)
-    knobs = engine.knobs(case.scene, start)
     found = levers(knobs, own)
     beside, alone = (halved(step, min(step / finer, least)) for finer in (BESIDE, ALONE))
     rest = remainder(knobs, engine.recipe(case.scene, start)) if best else None
-    return Field(Candidate.of(own, step), [*found, STEP], beside, alone, rest)
+    return Field(Candidate.of(own, step), [*found, STEP], beside, alone, rest, wholes(knobs))

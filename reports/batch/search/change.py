@@ -36,7 +36,8 @@ class Field:
 
     base: options and step before any is changed. steps: from the base's down to the finest, each
     half of the one before; alone: the same where nothing but the step is changed. rest: what else
-    the other recipe has, of no use but beside all the others.
+    the other recipe has, of no use but beside all the others. wholes: what sets all of a group at
+    once, as recipes for contacts of which neither setting has chosen.
     """
 
     base: Candidate
@@ -44,6 +45,7 @@ class Field:
     steps: Sequence[float]
     alone: Sequence[float]
     rest: Lever | None = None
+    wholes: Sequence[Lever] = ()
 
     def candidate(self, turned: Iterable[Lever]) -> Candidate:
         """With these changed: the finest step if it is one of them."""
@@ -92,6 +94,12 @@ def levers(knobs: Iterable[Knob], base: Options) -> Iterator[Lever]:
             yield Lever(words, knob.tuned.options, number=name, along=along)
         else:
             yield Lever(words, knob.tuned.options)
+
+
+def wholes(knobs: Iterable[Knob]) -> list[Lever]:
+    """Every whole recipe among the knobs: which of them the tuned setting has hangs on the start."""
+    bundles = (knob for knob in knobs if knob.kind == "bundle")
+    return [Lever(value.words, value.options) for knob in bundles for value in knob.values]
 
 
 def remainder(knobs: Iterable[Knob], recipe: Options) -> Lever | None:

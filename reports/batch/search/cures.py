@@ -84,6 +84,7 @@ def law(name: str, errors: Mapping[float, float]) -> str:
 
 LARGEST = 4  # levers in a set whose smaller ones have all been tried
 LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others
+WHOLE = LARGEST + 2  # levers: in their place recipes as a whole, each alone and with the step
 PAIR = 2  # levers, the step one of them: so many are tried whatever else cures
 MANY = 6  # levers, from which on it pays to ask first which of them matter
 
@@ -133,7 +134,7 @@ def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence
     """
     field, found = search.field, dict[str, Sequence[Cure]]()
     matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
-    for size in range(1, LARGEST + 2):
+    for size in range(1, WHOLE + 1):
         left = [row for row in rows if row not in found]
         if size == 2 and len(field.levers) >= MANY and left:
             matter = yield from that_matter(search, left)
@@ -170,7 +171,12 @@ def _fewest(cures: Sequence[Cure]) -> list[Cure]:
 
 
 def _sets(field: Field, matter: Sequence[Lever], size: int) -> list[Turned]:
-    """Every set of that size; beyond the largest, all levers that matter, and all there are."""
+    """Every set of that size; beyond the largest, all levers that matter, and all there are.
+
+    At last whole recipes, which a set that only goes on the way to the tuned one never meets.
+    """
+    if size == WHOLE:
+        return [turned for whole in field.wholes for turned in ((whole,), (whole, STEP))]
     if size <= LARGEST:
         sets = combinations(matter, size)
         return [turned for turned in sets if size <= LARGEST_FINER or STEP not in turned]

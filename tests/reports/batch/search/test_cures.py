@@ -1,6 +1,6 @@
 """Causes are the smallest sets that cure: of planted errors all of them, and no other."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from math import inf
 from typing import Any
 
@@ -20,12 +20,16 @@ SHIPPED = 2e-3  # s
 
 
 def cured(
-    error: Error, *levers: Lever, finer: int = 16, rest: Lever | None = None
+    error: Error,
+    *levers: Lever,
+    finer: int = 16,
+    rest: Lever | None = None,
+    wholes: Sequence[Lever] = (),
 ) -> tuple[Cured, Known]:
     """What is found of one row, and all that was run for it."""
     known = Known()
     steps = halved(SHIPPED, SHIPPED / finer)
-    field = Field(Candidate.of({}, SHIPPED), [*levers, STEP], steps, steps, rest)
+    field = Field(Candidate.of({}, SHIPPED), [*levers, STEP], steps, steps, rest, wholes)
     asking = cures(field, known, ["x"])
     while True:
         try:
@@ -137,6 +141,35 @@ def test_of_sets_beyond_the_largest_the_one_with_the_fewest_changes_is_the_cause
     most = otherwise(searching, "least = min(len(", "least = max(len(")
     monkeypatch.setattr(searching, "_fewest", most._fewest)
     assert names(cured(error, *levers, rest=rest)[0]) == {("0", "1", "2", "step", "rest")}
+
+
+LANDS = [Lever("lands", {"group": "lands"})]
+
+
+def test_a_whole_recipe_is_tried_where_no_set_of_changes_cures() -> None:
+    """It sets what the changes set, in a way that lies on no way to the tuned recipe."""
+    group = Lever("group", {"group": "rests"})
+    lands = lambda o, h: 0.5 if o.get("group") == "lands" else 9.0  # noqa: E731
+    found, known = cured(lands, group, wholes=LANDS)
+    assert names(found) == {("lands",)}
+    either = lambda o, h: 0.5 if "group" in o else 9.0  # noqa: E731
+    found, known = cured(either, group, wholes=LANDS)
+    assert names(found) == {("group",)}
+    assert all(candidate.options.get("group") != "lands" for candidate in known)
+
+
+def test_a_whole_recipe_may_need_a_smaller_step() -> None:
+    lands = lambda o, h: 600 * h if o.get("group") == "lands" else 9.0  # noqa: E731
+    found, _ = cured(lands, wholes=LANDS)
+    (cure,) = found.cures
+    assert names(found) == {("lands", "step")}
+    assert cure.candidate.step == SHIPPED / 2
+
+
+@pytest.mark.mutant("no cause where a recipe for contacts cures that the start does not choose")
+def test_without_whole_recipes_none_is_found() -> None:
+    found, _ = cured(lambda o, h: 0.5 if o.get("group") == "lands" else 9.0)
+    assert names(found) == set()
 
 
 def test_beside_an_instant_the_rest_may_still_be_cured() -> None:
