@@ -152,7 +152,8 @@ def fitting(found: Amount, unit: str | None) -> Amount:
     if found.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
         return found
     wanted = "a plain number" if unit == "1" else unit
-    counts = "[frequency]" in found.dimension
+    turns = "[angle]" in _dimension(unit) or unit == "1"
+    counts = turns and "[frequency]" in found.dimension
     hint = "; Hz may count turns or radians: write rpm or rad/s" if counts else ""
     raise NumberMistake(f"is {found.text!r}, but {wanted} was expected{hint}")
 

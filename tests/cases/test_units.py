@@ -128,6 +128,7 @@ HERTZ = "; Hz may count turns or radians: write rpm or rad/s"
         ("1/0", "m", "'1/0' is not computed: write the number"),
         ("2 Hz", "rad/s", f"is '2 Hz', but rad/s was expected{HERTZ}"),
         ("3 N m/Hz", "N m s/rad", f"is '3 N m/Hz', but N m s/rad was expected{HERTZ}"),
+        ("2 Hz", "kg", "is '2 Hz', but kg was expected"),
         ("2 kHz", "1", f"is '2 kHz', but a plain number was expected{HERTZ}"),
     ],
 )
