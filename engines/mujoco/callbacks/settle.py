@@ -7,6 +7,7 @@ creeps from the start as fast as MuJoCo's friction needs to hold it.
 """
 
 from collections.abc import Callable, Sequence
+from itertools import combinations
 
 import mujoco
 import numpy as np
@@ -203,6 +204,8 @@ _DEEPEST = 1.0  # m, of a point; a disk could be as deep as its radius
 _SETTLED = 1e-12  # of a depth: points that share a load have found it
 _ALL_AT_ONCE = (1, 4)  # sweeps before which Newton may try: he knows not what carries
 _SWEEPS = 100  # at most: each takes a third or more of the error, as two ends of one bar do
+_NEARLY = 1e-3  # of a depth: sweeps that are slow come so near, and those that run round do not
+_FEW = 3  # contacts that rub: of so many each choice may be tried
 _STICKS = 10  # steps of the slip's growth: friction is damped by about 1/h, and holds or does not
 _MOST = 1000  # steps to a zero: where friction gives way the slip jumps, and each only halves
 _STILL = 1e-9  # m/s: what slips less is meant to stick
@@ -220,19 +223,48 @@ def settle(
         return {}
     with signals(scene, point_force_callbacks(scene, model)):
         floor = Floor(scene, model, data, contacts, pairs)
-        for sweep in range(_SWEEPS):  # Gauss and Seidel
-            if len(both) > 2 and sweep in _ALL_AT_ONCE and together(floor):
-                break
-            before = floor.depths.copy()
-            for i, contact in enumerate(both):
-                _sink(floor, i, scene.bodies[contact.body].radius or _DEEPEST)
-                if contact.friction and not model.opt.noslip_iterations:
-                    _creep(floor, i)
-            if np.max(np.abs(floor.depths - before)) <= _SETTLED * np.max(floor.depths):
-                break
+        deepest = [scene.bodies[contact.body].radius or _DEEPEST for contact in both]
+        rubs = [i for i, contact in enumerate(both) if contact.friction]
+        rubs = [] if model.opt.noslip_iterations else rubs
+        if _swept(floor, deepest, rubs) > _NEARLY and len(rubs) <= _FEW:
+            _chosen(floor, deepest, rubs)
     mujoco.mj_resetDataKeyframe(model, data, 0)  # the run must not inherit a warm start
     floor.place()
     return dict(zip([c.name for c in both], floor.depths.tolist(), strict=True))
+
+
+def _swept(floor: Floor, deepest: Sequence[float], creeps: Sequence[int]) -> float:
+    """Settles depths and these creeps one after the other, or all at once.
+
+    Returns by how much of the largest depth the last sweep has still moved one; 0: settled.
+    """
+    moved = 0.0
+    for sweep in range(_SWEEPS):  # Gauss and Seidel
+        if len(deepest) > 2 and sweep in _ALL_AT_ONCE and together(floor):
+            return 0.0
+        before = floor.depths.copy()
+        for i, most in enumerate(deepest):
+            _sink(floor, i, most)
+            if i in creeps:
+                _creep(floor, i)
+        moved = float(np.max(np.abs(floor.depths - before)))
+        if moved <= _SETTLED * np.max(floor.depths):
+            return 0.0
+    return moved / float(np.max(floor.depths) or 1.0)
+
+
+def _chosen(floor: Floor, deepest: Sequence[float], rubs: Sequence[int]) -> None:
+    """Settles with fewer that may stick: who slides off hangs on who does, and sweeps run round.
+
+    What friction would hold by itself it does not where a slide elsewhere takes its load. As many
+    stick as settle; if not even all that slide do, the bodies start on the floor and not in it.
+    """
+    for count in reversed(range(len(rubs))):
+        for sticks in combinations(rubs, count):
+            floor.depths[:], floor.creeps[:] = 0.0, 0.0
+            if _swept(floor, deepest, sticks) <= _NEARLY:
+                return
+    floor.depths[:], floor.creeps[:] = 0.0, 0.0
 
 
 def _sink(floor: Floor, i: int, deepest: float) -> None:
