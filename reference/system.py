@@ -171,6 +171,8 @@ class Guard:
     vain: whether it is none where `then` gives back what it was given, as a landing from a gap that
     has just opened by rounding. jumps: whether the motion is another one however little g falls: a
     blow has a speed by the root of its depth, and what holds may be more than what then brakes.
+    rounds: of q, the size of g that is nothing but rounding: a step in which it is no more all
+    along, as what flies on beside a floor without gravity, is none in which anything falls.
     """
 
     event: str | None
@@ -179,6 +181,7 @@ class Guard:
     at_last: Callable[[float, Array, Array], tuple[str, Array, Array] | None] | None = None
     vain: bool = False
     jumps: bool = False
+    rounds: Callable[[Array], float] = lambda q: 0.0
 
 
 class System:

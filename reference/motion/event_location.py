@@ -14,6 +14,7 @@ from ..system import Array
 TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one instant
 ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
+SOON = tuple(2.0**-k for k in range(16, 2, -1))  # of a step: what begins at zero may fall at once
 TOUCH = 1e-10  # of its values around: what falls no deeper has touched zero, and not fallen
 TURN = 1e-6  # of its bracket: a dip's bottom known so well is known to 1e-12 of the dip's size
 HALVINGS = 40  # of a step, in search of the rise of a guard that begins at zero: to 1e-12 of it
@@ -75,12 +76,14 @@ def first(
     begins: bool,
     spent: int | None,
     rounding: Rounding | None = None,
+    nothing: Sequence[float] = (),
 ) -> tuple[tuple[int, float] | None, list[tuple[int, float]]]:
     """Which guard falls first in the step from t, and how far into it; and which touch zero before.
 
     points: 0, some times inside the step, and its length; states: y at each of them. begins: the
     mode does, with this step. spent: the guard that ended it just before. rounding: what is no more
-    than that is zero, and a guard that is zero begins.
+    than that is zero, and a guard that is zero begins. nothing: for each guard, of what size it is
+    none all along.
     """
     found, touched = None, list[tuple[int, float]]()
     # All guards at one state: they ask for the same forces.
@@ -92,6 +95,8 @@ def first(
             return guard(t + at, state(at))
 
         values = [row[i] for row in rows]
+        if nothing and max(map(abs, values)) <= nothing[i]:
+            continue
         if rounding is not None:
             pairs = zip(values, rounding(guard, states[-1]), strict=True)
             values = [value if abs(value) > room else 0.0 for value, room in pairs]

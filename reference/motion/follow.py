@@ -4,6 +4,7 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
-from .event_location import INSIDE, TOGETHER, Fall, Within, clear, first
+from .event_location import INSIDE, SOON, TOGETHER, TOUCH, Fall, Within, clear, first
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
 from .zeno import (
@@ -194,16 +195,20 @@ class _Walk:
             if guards and not looks:  # a stiff state may turn faster than the cubic
                 sure = not begins and not mode.stiff
                 looks = not (sure and clear(falls, f, step.t, length, step.y, step.y_next))
-            points = [0.0, *(part * length for part in INSIDE if looks), length]
+            near = falls if looks else ()
+            soon = SOON if begins and any(_at_zero(fall, step) for fall in near) else ()
+            points = [0.0, *(part * length for part in (*soon, *INSIDE) if looks), length]
             states = [state(at) for at in points]
             spent = self.spent if begins else None
-            near = falls if looks else ()
-            found, touched = first(near, step.t, points, states, state, begins=begins, spent=spent)
+            none = [guard.rounds(mode.parted(step.y)[0]) for guard in guards if looks]
+            fallen = partial(
+                first, near, step.t, points, states, state,
+                begins=begins, spent=spent, nothing=none,
+            )  # fmt: skip
+            found, touched = fallen()
             room = early.rounding(step.t, points) if found is not None else None
             if room is not None:
-                found, touched = first(
-                    near, step.t, points, states, state, begins=begins, spent=spent, rounding=room
-                )
+                found, touched = fallen(rounding=room)
             spend(probe.evaluations - probed + GUARD * len(guards), step.t)
             probed = probe.evaluations
             for i, at in touched:
@@ -320,6 +325,11 @@ class _Walk:
         """
         others = (accumulation(self.fired[name]) for name in self.passing)
         return any(other is not None and abs(other - limit) <= near for other in others)
+
+
+def _at_zero(fall: Fall, step: Step) -> bool:
+    """Whether a guard is zero at a step's begin, beside what it is at the end."""
+    return abs(fall(step.t, step.y)) <= TOUCH * abs(fall(step.t_next, step.y_next))
 
 
 def _falling(mode: Mode, guard: Guard) -> Fall:

@@ -15,7 +15,7 @@ from ..integrators.budget import spend
 from ..integrators.march import AT_ONCE, span
 from ..integrators.slope import POINTS, Slope, leaps, noise
 from ..system import Array
-from .event_location import Fall, Rounding
+from .event_location import INSIDE, Fall, Rounding
 
 # Times the noise: rest and motion may compute a force in two ways, that differ by some ulp all
 # along, which is no noise. A push that is above friction by 1e-13 of itself is still heard.
@@ -52,7 +52,8 @@ class Early:
         began = self.times[0]
         if t - began > self.lasts or self.noise is None:
             return None
-        ages = np.array([t - began + at for at in (points[1], *points[1:])])
+        least = INSIDE[0] * points[-1]  # what is looked at before has rounding of its own
+        ages = np.array([t - began + max(at, least) for at in points])
         blur = np.diag(HEARD * ages[-1] * self.noise)
 
         def rounding(guard: Fall, y: Array) -> Array:

@@ -35,6 +35,7 @@ from .spatial_mode import SpatialMultibody
 from .unilateral import HAPPENS, OTHER, OneSided
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
+ROUNDS = 64 * 2.2e-16  # of the scene's size and places: a gap of their rounding, over many steps
 STEEP = 2.0  # how deep a foot may be for each metre that it is behind
 PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
 
@@ -160,7 +161,7 @@ class PlanarMechanism(Mechanism):
                 gap = self._clear(e, normal)
                 rest = self._comes_to_rest(mode, i)
                 lands, name = self._lands(mode, i), f"{e.name} {e.endings[1]}"
-                yield Guard(name, gap, lands, rest, vain=True, jumps=True)
+                yield Guard(name, gap, lands, rest, vain=True, jumps=True, rounds=self._rounds)
                 return
             push = lambda t, q, v: self.built.forces(mode, t, q, v)[e.push]  # noqa: E731
             yield Guard(f"{e.name} {e.endings[0]}", push, self._opens(mode, i))
@@ -182,6 +183,10 @@ class PlanarMechanism(Mechanism):
             return normal.f(t, numbers)[0] + STEEP * e.behind(t, numbers, self.size)
 
         return clear
+
+    def _rounds(self, q: Array) -> float:
+        """[m] What rounding of places and angles makes of a gap."""
+        return ROUNDS * (self.size + float(np.max(np.abs(q))))
 
     def _margin(self, mode: str, e: Element, k: int) -> Callable[[float, Array, Array], float]:
         return lambda t, q, v: e.margins(self.built.forces(mode, t, q, v))[k]

@@ -9,8 +9,9 @@ from given import scenes
 from given.refused import refused
 
 from textmech.cases.case import Case
+from textmech.cases.mistake import CaseError
 from textmech.reference import assumptions
-from textmech.reference.mechanism.modes import element
+from textmech.reference.mechanism.modes import element, mechanism
 from textmech.reference.solve import solve
 
 W = math.sqrt(40.0)  # rad/s
@@ -180,3 +181,40 @@ def test_a_push_that_only_just_holds_and_is_passed_over_is_seen(
     monkeypatch.setattr(element.Sliding, "yields", False)
     with pytest.raises(AssertionError):  # it rests, it says then
         test_what_is_pushed_to_just_what_holds_it_is_refused(tmp_path, 1e-14, 26)
+
+
+# Without gravity a block flies along beside a plane that is turned by 2.5 rad, and touches it.
+BESIDE = """\
+scene:
+  gravity: none
+  planes: {wall: {at: [0, 0], normal: [-0.5984721441039565, -0.8011436155469337]}}
+  bodies: {block: {block: {mass: 2, width: 0.8, height: 0.4}}}
+  contacts:
+    l: {between: [block.lower_left, ground.wall], friction: 0}
+    r: {between: [block.lower_right, ground.wall], friction: 0}
+initial:
+  block: {x: -2.2827821907975125, y: 1.4556460659712962, angle: 2.5,
+          vx: -1.1135896256102378, vy: 0.8318762803044996}
+allow: {block.x: 1.0e-3}
+"""
+
+
+def beside(folder: Path, samples: int) -> Case:
+    return scenes.typed(folder, BESIDE, tail=scenes.tail(2.0, samples))
+
+
+@pytest.mark.parametrize("samples", [3, 5, 41])
+def test_what_flies_along_a_plane_without_a_force_neither_lands_nor_touches(
+    tmp_path: Path, samples: int
+) -> None:
+    solution = solve(beside(tmp_path, samples))
+    assert solution.holds
+    assert len(solution.trajectory.switches) == 0
+
+
+@pytest.mark.mutant("a gap of rounding all along taken for one that comes to zero and turns back")
+def test_a_gap_of_rounding_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mechanism, "ROUNDS", 0.0)
+    with pytest.raises(CaseError, match="is rounding|evaluations and needs"):
+        for samples in (3, 5, 41):
+            solve(beside(tmp_path, samples))
