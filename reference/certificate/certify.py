@@ -80,7 +80,7 @@ def certify(
         off = compared(motion, others["generated"])
         checks.append(Check("generated motion", off, max(GENERATED, _looser(apart))))
         checks += reaction_checks(written, built, generated, times)
-    own = max(_own(followed), _looser(apart))
+    own, known = max(_own(followed), _looser(apart)), apart
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", compared(motion, others["closed form"]), own))
@@ -91,7 +91,7 @@ def certify(
     doing("the laws at every sample", float(times[0]), float(times[-1]))
     if written.turns.angles:
         checks.append(Check("turns by their rates", written.turns.unrolled(), UNROLLED))
-    checks += laws(written, generated, times, marched)
+    checks += laws(written, generated, times, marched, known)
     checks += _drift(system, followed, own)
     checks += as_the_file_says(case, written, generated, motion, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):

@@ -100,15 +100,16 @@ class Scale:
 
 
 def laws(
-    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory
+    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory, apart: float
 ) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each.
 
-    marched: the motion of the bodies at every step.
+    marched: the motion of the bodies at every step. apart: of its size, how far another integrator
+    is from it: so much a rate may have drifted.
     """
     found: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
-    drift = DRIFT * float(np.finfo(float).eps) * followed.steps
+    drift = max(DRIFT * float(np.finfo(float).eps) * followed.steps, apart)
     scale = Scale(generated.base, _speeds(generated.base, marched), float(np.ptp(times)), drift)
     for name in dict.fromkeys(followed.modes):
         mine, mode = np.array(followed.modes) == name, answer.system.modes[name]
