@@ -30,7 +30,8 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
     turned = bends[:, :-1] - np.swapaxes(bends[:, :-1], 1, 2)
     driven = derivative(lambda t: by.alpha(t, q), (t,), (1.0,)) - bends[:, -1]
     right = slopes + by.forces(t, q, v) - drift
-    right = right + momentum(system, t, q, q_dot)[by.a2] @ (turned @ independent + driven)
+    p_2 = momentum(system, t, q, q_dot, even=True)[by.a2]
+    right = right + p_2 @ (turned @ independent + driven)
     q_ddot: Any = np.linalg.solve(by.inertia(t, q), right)
     return by.changed(t, q, v, q_ddot)
 

@@ -71,7 +71,7 @@ class Dependent:
 
     def momentum(self, t: Any, q: Vector, independent: Vector) -> Vector:
         """∂T'/∂q̇^{a1} (k,)."""
-        return slope(self.reduced(t, q), t, q, independent)
+        return slope(self.reduced(t, q), t, q, independent, even=True)
 
     def inertia(self, t: float, q: Array) -> Array:
         """∂²T'/∂q̇^{a1}∂q̇^{d} (k, k)."""

@@ -16,6 +16,8 @@ import numpy as np
 from ..system import Array, Mode, Vector
 from .derivative import along
 
+MOST = 1e6  # times the energy of what is driven
+
 
 def multipliers(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, Array]:
     """(2.60) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a + λ_b f_aᵇ with f_a v = g: v̇ (n,), λ (r,).
@@ -63,12 +65,22 @@ def _widths(T: Callable[..., Any], t: Any, q: Any, fast: Array, most: float) -> 
 
     A ball of a micrometre turns by 1e6 rad/s where it goes 1 m/s; a flywheel has all of T.
     """
-    ones = np.eye(len(fast))
-    M = np.real(T(t, q, ones) + T(t, q, -ones) - 2 * T(t, q, 0 * ones))  # M_aa of ½ M_aa each
-    M = np.broadcast_to(M, fast.shape)
-    energy = np.max(np.abs(M) * fast**2)
+    M, _ = _alone(T, t, q, len(fast))
+    return _even(M, float(np.max(M * fast**2)), most)
+
+
+def _alone(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]:
+    """|M_aa| (n,) of the ½ M_aa q̇ᵃ² in T, and what T is without any rate, where parts are driven."""
+    one = np.eye(n)
+    found = np.real(T(t, q, np.hstack([one, -one, np.zeros((n, 1))])))
+    found = np.broadcast_to(found, 2 * n + 1)
+    return np.abs(found[:n] + found[n:-1] - 2 * found[-1]), abs(float(found[-1]))
+
+
+def _even(M: Array, energy: float, most: float) -> Array:
+    """(n,) rates that alone have that energy; `most` where a rate has none."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.sqrt(energy / np.abs(M))
+        found = np.sqrt(energy / M)
     return np.where(np.isfinite(found) & (found > 0.0), found, most)
 
 
@@ -78,9 +90,16 @@ def mass_matrix(system: Mode, t: float, q: Array) -> Array:
 
 
 def curvature(T: Callable[..., Any], t: float, q: Array, n: int) -> Array:
-    """∂²T/∂q̇ᵃ∂q̇ᵇ (n, n) by polarisation: column b is p(e_b) − p(0)."""
-    still = slope(T, t, q, np.zeros(n))
-    return np.stack([slope(T, t, q, e) - still for e in np.eye(n)], axis=1)
+    """∂²T/∂q̇ᵃ∂q̇ᵇ (n, n) by polarisation, of rates that alone have the same energy.
+
+    It is far above what T has without rates, where parts are driven, which would take its digits.
+    """
+    M, driven = _alone(T, t, q, n)
+    widths = _even(M, float(np.max(M)) + MOST * driven, 1.0)
+    a, b = np.repeat(np.diag(widths), n, axis=1), np.tile(np.diag(widths), n)  # every pair of rates
+    both = T(t, q, np.hstack([a + b, a - b, b - a, -a - b]))
+    one, two, three, four = np.broadcast_to(both, 4 * n * n).reshape(4, n, n)
+    return (one - two - three + four) / (4.0 * np.outer(widths, widths))
 
 
 def inertia(system: Mode, t: float, q: Array, v: Array) -> Array:

@@ -30,7 +30,7 @@ def accelerations(
     drift = derivative(lambda t, q: by.momentum(t, q, independent), (t, q), (1.0, q_dot))
     slopes, bends = slopes_of(by, t, q, independent)
     right = slopes[by.a1] + slopes[by.a2] @ alpha + by.forces(t, q, v)
-    p_2 = momentum(system, t, q, q_dot)[by.a2]
+    p_2 = momentum(system, t, q, q_dot, even=True)[by.a2]
     right = right + p_2 @ (beta(by, alpha, bends) @ independent + drives(by, t, q, bends)) - drift
     q_ddot: Any = np.linalg.solve(by.inertia(t, q), right)
     return by.changed(t, q, v, q_ddot)

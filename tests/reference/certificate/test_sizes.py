@@ -13,6 +13,8 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case
+from textmech.reference.certificate import certify
+from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.solve import Solution, solve
@@ -145,3 +147,86 @@ def test_a_torque_that_is_none_is_seen(tmp_path: Path, monkeypatch: pytest.Monke
 
     monkeypatch.setattr(answer, "by_virtual_work", wrong)
     assert "Lagrange (2.44) against d'Alembert (2.39)" in broken(solve(claim(tmp_path)))
+
+
+# Scenes of 0.3 mm: what goes 10 mm/s turns by 100 rad/s, and where a pivot is driven most of T is
+# there without any rate that is free.
+PAIR = """\
+scene:
+  bodies:
+    a: {bar: {mass: 8.0e-10, length: 3.0e-4}}
+    b: {bar: {mass: 7.0e-10, length: 4.0e-4}}
+  joints: {h: {pin: [a.end, b.start]}}
+initial: {a: {angle: -0.6, omega: 31.6, x: 1.0e-3, y: 2.0e-3, vx: 0.0316, vy: 0},
+          b: {angle: 0.3, omega: 63.2}}
+allow: {a.x: 1.0e-6}
+"""
+DRIVEN = """\
+scene:
+  points: {O: {at: [2.76e-4, 2.276e-3], velocity: [-0.0072, -0.047]}}
+  bodies:
+    a: {bar: {mass: 1.8e-4, length: 4.06e-4}, points: {P: [-8.2e-05, 9.46e-05]}}
+    b: {block: {mass: 5.5e-5, width: 4.94e-4, height: 2.96e-4}, points: {P: [2.57e-05, 5.78e-05]}}
+  joints:
+    j: {pin: [ground.O, a.start]}
+    k: {pin: [a.P, b.P], dry_friction: {static: 1.5e-07, kinetic: 9.9e-08}}
+  forces: {t: {motor: j, ramp: 2.48e-05}}
+initial: {a: {angle: -0.213, omega: -106.2}, b: {angle: -2.168, omega: 209.4}}
+allow: {a.x: 1.0e-06}
+"""
+SMALL = {"pair": (PAIR, 0.06), "driven": (DRIVEN, 0.01)}
+
+
+def small(folder: Path, name: str) -> Solution:
+    text, duration = SMALL[name]
+    return solve(scenes.typed(folder, text, tail=scenes.tail(duration, 5)))
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_what_is_small_holds(tmp_path: Path, name: str) -> None:
+    assert not broken(small(tmp_path, name))
+
+
+@pytest.mark.mutant("T of 1 rad/s beside T of 1 m/s, and of what is driven, to all its digits")
+@pytest.mark.parametrize("name", SMALL)
+def test_rates_of_one_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    monkeypatch.setattr(lagrange, "_even", lambda M, energy, most: np.ones(len(M)))
+    assert "accelerations by Voronets (2.66)" in broken(small(tmp_path, name))
+
+
+# Friction by the root of the speed: beside its stop no integrator knows the speed to rounding.
+ROOT = """\
+scene:
+  points: {O: [3.113, 1.907]}
+  bodies:
+    a: {bar: {mass: 1.113, length: 0.555}, points: {P: [-0.204795, 0.102675]}}
+    b: {bar: {mass: 0.567, length: 0.597}}
+  joints:
+    j: {slot: [ground.O, a.P], along: [1, 0]}
+    k: {pin: [a.P, b.start]}
+  forces:
+    v: {viscous: j, coefficient: 1.655, exponent: 0.5}
+    t: {torsion: k, stiffness: 28.555, rest_angle: -1.318}
+initial:
+  j: {shift: -0.07, speed: 0.332}
+  a: {angle: 2.69, omega: 0.032}
+  b: {angle: 0.681, omega: 2.699}
+allow: {a.x: 1.0e-3}
+"""
+
+
+def rooted(folder: Path) -> set[str]:
+    return broken(solve(scenes.typed(folder, ROOT, tail=scenes.tail(1.0, 41))))
+
+
+@pytest.mark.slow
+def test_what_the_motion_is_not_known_to_is_no_power(tmp_path: Path) -> None:
+    assert not rooted(tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("drift of a rate bounded by roundings where no integrator keeps it so well")
+def test_drift_beyond_rounding_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = certify.laws
+    monkeypatch.setattr(certify, "laws", lambda *args: asked(*args[:-1], 0.0))
+    assert rooted(tmp_path) == {"power balance (2.51)"}

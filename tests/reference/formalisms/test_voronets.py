@@ -92,7 +92,7 @@ def _without_drives(patch: pytest.MonkeyPatch) -> None:
 
 def _momentum_of_the_reduced_energy(patch: pytest.MonkeyPatch) -> None:
     """T' has no q̇^{a2} (erratum 7)."""
-    patch.setattr(voronets, "momentum", lambda mode, t, q, q_dot: 0.0 * q_dot)
+    patch.setattr(voronets, "momentum", lambda mode, t, q, q_dot, **_: 0.0 * q_dot)
 
 
 @pytest.mark.mutant("Voronets, {name}: {plant}")
