@@ -70,7 +70,7 @@ def _widths(T: Callable[..., Any], t: Any, q: Any, fast: Array, most: float) -> 
 
 
 def _alone(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]:
-    """|M_aa| (n,) of the ½ M_aa q̇ᵃ² in T, and what T is without any rate, where parts are driven."""
+    """|M_aa| (n,) of the ½ M_aa q̇ᵃ² in T, and the T of driven parts, without any rate."""
     one = np.eye(n)
     found = np.real(T(t, q, np.hstack([one, -one, np.zeros((n, 1))])))
     found = np.broadcast_to(found, 2 * n + 1)

@@ -22,7 +22,7 @@ ROUNDING = 1e-15  # of the largest velocity: a speed that is none
 
 
 def _moving(speed: Array, exponent: float, motion: Motion) -> Array:
-    """(N,) the speed, 0 where it is rounding and α < 1, whose steep root would make a force of it."""
+    """(N,) the speed, 0 where it is rounding and α < 1: the steep root would make a force of it."""
     if exponent >= 1:
         return speed
     states = motion.trajectory.states.values()

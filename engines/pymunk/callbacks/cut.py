@@ -81,7 +81,8 @@ class Landings:
         self._drift(step / 2)
         left = step
         if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
-            self._strike(late, step)  # as the step before ended, by a little more than it had foreseen
+            # As the step before ended, by a little more than it had foreseen.
+            self._strike(late, step)
         for _ in range(_PARTS * len(self.feet)):
             after = [
                 foot.after(left) for foot in self.feet if foot.is_above and foot.comes(0.0, left)

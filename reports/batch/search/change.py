@@ -97,7 +97,7 @@ def levers(knobs: Iterable[Knob], base: Options) -> Iterator[Lever]:
 
 
 def wholes(knobs: Iterable[Knob]) -> list[Lever]:
-    """Every whole recipe among the knobs: which of them the tuned setting has hangs on the start."""
+    """Every whole recipe among the knobs: which of them is the tuned one hangs on the start."""
     bundles = (knob for knob in knobs if knob.kind == "bundle")
     return [Lever(value.words, value.options) for knob in bundles for value in knob.values]
 

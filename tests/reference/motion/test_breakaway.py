@@ -293,7 +293,7 @@ def test_a_first_step_within_the_leaps_of_the_clock_gets_nowhere(
 @pytest.mark.mutant("a mode ends at once where its guard falls by rounding")
 def test_a_speed_of_rounding_that_counts_is_a_stop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(Early, "rounding", lambda *given: None)
-    with pytest.raises(AssertionError):
+    with pytest.raises((AssertionError, ZenoError)):  # it stops where it does not, or without end
         test_a_slip_is_followed_as_often_as_it_comes_back(tmp_path, SIGN)
 
 

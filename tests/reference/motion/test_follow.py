@@ -134,13 +134,13 @@ def test_rows_beyond_an_event_are_seen(monkeypatch: pytest.MonkeyPatch):
 
 
 def soon() -> list[float]:
-    """When a guard falls that is zero at first, below zero from 0.05 to 1.5 ms, and above it later."""
+    """When a guard falls that is zero at first, and below zero from 0.05 to 1.5 ms."""
     dips = lambda t, x, v: t * (5e-5 - t) * (1.5e-3 - t)  # noqa: E731
     return [e.time for e in follow(Watched([("down", dips)], Oscillator()), TIMES).events]
 
 
 def test_what_begins_at_zero_and_falls_at_once_for_a_moment_falls() -> None:
-    """The first step takes 9 ms; so the last bounces of a disk were missed, which then was lifted."""
+    """The first step takes 9 ms; so a disk's last bounces were missed before it was lifted."""
     assert soon() == pytest.approx([5e-5], abs=1e-14)
 
 

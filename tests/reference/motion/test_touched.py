@@ -215,6 +215,6 @@ def test_what_flies_along_a_plane_without_a_force_neither_lands_nor_touches(
 @pytest.mark.mutant("a gap of rounding all along taken for one that comes to zero and turns back")
 def test_a_gap_of_rounding_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mechanism, "ROUNDS", 0.0)
-    with pytest.raises(CaseError, match="is rounding|evaluations and needs"):
-        for samples in (3, 5, 41):
-            solve(beside(tmp_path, samples))
+    case = beside(tmp_path, 5)
+    with pytest.raises(CaseError, match=r"is rounding|evaluations and needs"):
+        solve(case)
