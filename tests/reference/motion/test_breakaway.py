@@ -17,6 +17,7 @@ from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.motion.mode_onset import Early
 from textmech.reference.motion.stuck import Stuck
+from textmech.reference.motion.zeno import ZenoError
 from textmech.reference.system import System
 from textmech.reference.systems.friction.anisotropic_drift import AnisotropicDrift
 from textmech.reference.systems.friction.dynamometer import Dynamometer
