@@ -1,5 +1,6 @@
 """Every mistake a case file can have: its place, its field, and what is said about it."""
 
+import os
 import re
 from pathlib import Path
 
@@ -211,6 +212,16 @@ def test_find(tmp_path: Path) -> None:
     assert said[str(tmp_path)] == "is a directory; a case is one YAML file"
     assert said[str(tmp_path / "for_bar.yaml")] == "no such file; did you mean 'four_bar'?"
     assert said[str(tmp_path / "own")] == f"no such case; did you mean {str(own)!r}?"
+
+
+def test_what_is_there_and_is_no_file(tmp_path: Path) -> None:
+    pipe, loop = tmp_path / "pipe.yaml", tmp_path / "loop.yaml"
+    os.mkfifo(pipe)
+    loop.symlink_to(loop)
+    with pytest.raises(CaseError) as caught:
+        find([str(pipe), str(loop)])
+    said = {m.file: m.what for m in caught.value.mistakes}
+    assert said == {str(pipe): "is no file", str(loop): "is no file: a link that leads nowhere"}
 
 
 def test_of_an_engine_that_cannot_be_imported_no_setting_is_known(tmp_path: Path) -> None:
