@@ -34,6 +34,8 @@ def advice_lines(one: Advised) -> Iterator[str]:
     yield from _found(one, one.shipped)
     if one.recipes is None:
         yield f"  no recipe: {rows(one)[0].remains}"
+        if ours := " and ".join(one.kitchen.menu.ours):
+            yield f"    not tried, for it takes our adapter, as `run --causes` does: {ours}"
     for place, (want, recipe) in enumerate(one.wanted):
         step = milliseconds(recipe.step)
         yield f"  {HEADS.get(want, want)}: {words(recipe.choice)}, {step}"

@@ -135,7 +135,8 @@ def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
         name for knob in knobs if knob.kind == "ours" for v in knob.values for name in v.options
     }
     tuned = {k: v for k, v in engine.recipe(case.scene, start).items() if k not in ours}
-    menu = Menu([knob for knob in knobs if knob.kind != "ours"], steps, own, tuned)
+    withheld = [knob.tuned.words for knob in knobs if knob.kind == "ours" and knob.tuned]
+    menu = Menu([knob for knob in knobs if knob.kind != "ours"], steps, own, tuned, withheld)
     bar = Bar(Known(), asked.margin, _scale(Trial(case, reference, engine, way), asked.tolerance))
 
     def cost(candidate: Candidate) -> float:

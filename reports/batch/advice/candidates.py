@@ -46,13 +46,14 @@ class Menu:
     """knobs: those that matter for a scene. steps: large to small.
 
     own: the step [s] of who changes nothing; it is one of them, and a smaller one is a change.
-    tuned: the tuned setting's options.
+    tuned: the tuned setting's options. ours: what is not on it, for it takes our adapter.
     """
 
     knobs: Sequence[Knob]
     steps: list[float]
     own: float
     tuned: Options
+    ours: Sequence[str] = ()
 
     def choices(self, size: int) -> Iterator[Choice]:
         """Every choice of `size` options."""

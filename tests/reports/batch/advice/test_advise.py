@@ -1,6 +1,7 @@
 """Advice for real cases: recipes that are known by hand, and what is said where there is none."""
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import pytest
 from given import scenes
@@ -11,7 +12,7 @@ from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.data.row import Advice
-from textmech.reports.show.advice import ratio
+from textmech.reports.show.advice import advice_lines, ratio
 
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp")
 
@@ -90,6 +91,29 @@ def test_where_nothing_does_it_what_remains_is_said() -> None:
     assert (one.recipe, one.step) == ("none", None)
     assert "stays ×" in one.remains
     assert "one number for friction" in one.remains
+
+
+SLIDES_OFF = """\
+scene:
+  bodies: {d: {disk: {mass: 3, radius: 0.5}}, p: {particle: {mass: 0.2}}}
+  points: {O: [0, 0]}
+  joints: {h: {pin: [ground.O, d.center]}}
+  contacts: {c: {between: [p, d], friction: 0}}
+initial: {d: {angle: 0}, p: {x: 0.03, y: 0.4990991885387}}
+allow: {p.x: 1.0e-3, c.normal: 0.1}
+"""
+
+
+@pytest.mark.slow
+def test_what_would_need_our_adapter_is_named_where_there_is_no_recipe(tmp_path: Path) -> None:
+    """`run --causes` says that tips that reflect cure it, and nobody can paste those."""
+    case = scenes.typed(tmp_path, SLIDES_OFF, tail=scenes.tail(0.6, 25))
+    engines = choose_engines(["pymunk"], ["shipped"])
+    with advised([case], engines, Asked(None, 2.0), progress=lambda *_: None, jobs=2) as (one,):
+        lines = list(advice_lines(one))
+    where = next(i for i, line in enumerate(lines) if line.startswith("  no recipe: "))
+    assert lines[where + 1].strip().startswith("not tried, for it takes our adapter")
+    assert lines[where + 1].endswith(": tips that reflect")
 
 
 @pytest.mark.slow
