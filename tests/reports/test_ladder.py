@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -11,11 +12,19 @@ from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
+from textmech.reports.compare.judge import compare as comparing
 from textmech.reports.compare.judge.compare import compare
+from textmech.reports.compare.judge.convergence import Convergence
 from textmech.reports.compare.trial import ladder as stepping
-from textmech.reports.compare.trial.ladder import USUAL, judged_step, ladders, wanted_reactions
+from textmech.reports.compare.trial.ladder import (
+    USUAL,
+    Ladder,
+    judged_step,
+    ladders,
+    wanted_reactions,
+)
 from textmech.reports.compare.trial.trial import Trial
-from textmech.reports.data.row import AGREES
+from textmech.reports.data.row import AGREES, WITHIN
 from textmech.reports.show import script as showing
 
 Make = Callable[..., Trial]
@@ -148,3 +157,28 @@ def test_a_shown_file_has_the_judged_step(trial: Make, monkeypatch: pytest.Monke
     was = "step, duration = judged_step(case, engine)"
     twice = otherwise(showing, was, was.replace("judged", "2 * judged"))
     assert " by 0.002 s" in shown(made, twice)
+
+
+def told_by(trial: Trial, error: float, held: Convergence, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Which ladder is asked for a cause, of a row that allows as much as the case."""
+    monkeypatch.setattr(comparing, "_study", lambda trial, one, *rest: one.name)
+    both = {Ladder("following", (trial.step,)): {}, Ladder("held", (trial.step,)): {}}
+    runs = SimpleNamespace(ladders=both)
+    told = comparing._telling(trial, "ball.x", runs, error, held)  # pyright: ignore
+    return "held" if told is held else str(told)
+
+
+@pytest.mark.mutant("the step is to blame, and it is small enough already")
+def test_a_held_ladder_that_is_within_where_the_row_is_not_is_not_asked(
+    trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its numbers, or its start, are another at the judged step: what it says is of these."""
+    one = trial(moving)
+    allowed = one.allowed("ball.x")
+    assert allowed
+    step = one.step
+    within = Convergence(WITHIN, {step: 0.1 * allowed, 2 * step: 0.2 * allowed}, 2 * step)
+    finer = Convergence(WITHIN, {step / 2: 0.1 * allowed, step: 3 * allowed}, step / 2)
+    assert told_by(one, 3 * allowed, finer, monkeypatch) == "held"
+    assert told_by(one, 3 * allowed, within, monkeypatch) == "following"
+    assert told_by(one, 0.5 * allowed, within, monkeypatch) == "held"

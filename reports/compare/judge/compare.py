@@ -168,10 +168,14 @@ def _telling(
 ) -> Convergence:
     """The ladder that tells a cause: the held one, which parts step and model.
 
-    With the numbers of its coarsest step the model may be further off than the judged run is. That
-    explains nothing, and the ladder whose numbers follow is asked.
+    With the numbers of its coarsest step the model may be further off than the judged run is, or
+    within at the very step at which that is not. That explains nothing, and the ladder whose
+    numbers follow is asked.
     """
-    if len(runs.ladders) == 1 or not (held.limit or 0.0) > largest:
+    worse = (held.limit or 0.0) > largest
+    beyond = largest > (trial.allowed(name) or np.inf)
+    better = beyond and (held.usable_step or 0.0) >= trial.step
+    if len(runs.ladders) == 1 or not (worse or better):
         return held
     return _study(trial, next(iter(runs.ladders)), runs, name, among)
 
