@@ -23,7 +23,8 @@ def laid_out(
 ) -> Array:
     """q (m,): bodies that are placed, then those that hang on them, then the rest at the origin.
 
-    seeds: coordinates of joints that nobody gives; what is in neither is 0.
+    A body of which only the attitude is given hangs where its joint is. seeds: coordinates of
+    joints that nobody gives; what is in neither is 0.
     """
     scene = where.scene
     known: dict[str, Pose] = {GROUND: (np.zeros(3), np.array(UPRIGHT))}
@@ -31,14 +32,17 @@ def laid_out(
         placement = given.get(name)
         if placement is None:
             continue
+        stands = placement.points or {*"xyz"} <= placement.given.keys()
         # Whose attitude nobody gives may be turned as its joint's seeds say, to find other ways.
-        if placement.attitude is not None or (placement.points and not seeds):
+        if stands and (placement.attitude is not None or (placement.points and not seeds)):
             known[name] = _placed(scene, name, placement)
     while len(known) <= len(scene.bodies):
         found = _next(scene, known, given, seeds)
         if found is None:
-            name = next(name for name in scene.bodies if name not in known)
-            found = name, _placed(scene, name, given.get(name, Placement()))
+            left = [name for name in scene.bodies if name not in known]
+            placed = {name: given.get(name, Placement()) for name in left}
+            name = min(left, key=lambda name: placed[name].attitude is None)
+            found = name, _placed(scene, name, placed[name])
         known[found[0]] = found[1]
     poses = {name: (*r, *e, *np.zeros(6)) for name, (r, e) in known.items() if name != GROUND}
     return where.place(poses)[0]
@@ -68,14 +72,20 @@ def _next(
         shift, turn = _moved(joint, values, placement.attitude)
         if a:
             r, e = known[joint.a.body]
-            own = product(e, turn)
+            own = _own(given, joint.b.body, product(e, turn))
             at = r + turned(e, _local(scene, joint.a) + shift)
             return joint.b.body, (at - turned(own, _local(scene, joint.b)), own)
         r, e = known[joint.b.body]
-        own = product(e, inverse(turn))
+        own = _own(given, joint.a.body, product(e, inverse(turn)))
         at = r + turned(e, _local(scene, joint.b))
         return joint.a.body, (at - turned(own, _local(scene, joint.a) + shift), own)
     return None
+
+
+def _own(given: Mapping[str, Placement], body: str, hung: Array) -> Array:
+    """The attitude (4,) that is given of a body, or the one with which it hangs."""
+    attitude = given.get(body, Placement()).attitude
+    return hung if attitude is None else np.array(attitude)
 
 
 def _moved(

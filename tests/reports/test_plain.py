@@ -14,6 +14,7 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE, VX, VY, Array, Trajectory, X, Y
 from textmech.reference.solve import solve
+from textmech.reports.compare.judge import figures
 from textmech.reports.compare.judge.figures import Plain, numbers, plain
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import Trial
@@ -74,6 +75,44 @@ def test_restitution(tmp_path: Path, back: float, late: float) -> None:
     assert found["restitution of touch"].value == pytest.approx(back, abs=3e-4)
     assert found["restitution of touch"].wanted == 0.7
     assert "creep of touch" not in found  # what flies does not stick
+
+
+SPRUNG = """\
+title: A strong spring throws a ball up after the blow, faster than the blow does
+scene:
+  points: {U: [0, 1.0]}
+  bodies: {ball: {disk: {mass: 1, radius: 0.1}}}
+  contacts: {touch: {between: [ball, ground.floor], friction: 0, restitution: 0.3}}
+  forces: {s: {spring: [ball.center, ground.U], stiffness: 40, rest_length: 0.2}}
+initial: {ball: {x: 0, y: 0.3, vy: -2.5}}
+events: {lands: {touch.gap: falls to zero}}
+duration: 0.5
+samples: 26
+allow: {ball.y: 2.0e-3}
+"""
+
+
+def sprung(folder: Path) -> float:
+    """The restitution that is read of an engine that has the reference's motion, by 0.1 ms."""
+    file = folder / "sprung.yaml"
+    file.write_text(SPRUNG, encoding="utf-8")
+    (case,) = load(file)
+    finely = replace(case, samples=5001)
+    reference, record = solve(case).trajectory, solve(finely).trajectory
+    found = told(case.scene, reference, replace(reference, record=record))
+    return found["restitution of touch"].value
+
+
+@pytest.mark.slow
+def test_what_pulls_after_a_blow_is_no_restitution(tmp_path: Path) -> None:
+    assert sprung(tmp_path) == pytest.approx(0.3, abs=3e-3)  # a step of 0.1 ms by 20 m/s²
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("the fastest way back, long after the blow, read as its restitution")
+def test_the_fastest_way_back_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(figures, "_besides", lambda *given: -100.0)
+    assert sprung(tmp_path) > 0.6
 
 
 def test_energy_lost(moving: Case) -> None:

@@ -113,6 +113,7 @@ def _gap(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
 
 STILL = 1e-9  # m/s (rad/s): what slips less in the reference sticks there
 SLIPS = 1e-2  # of the fastest slip: near a stop friction is neither moving nor at rest
+BESIDES = 0.05  # of the fastest growth by what else acts: an engine has it by a step of its own
 
 
 def depth(scene: Scene, contact: Any, motion: Trajectory) -> Iterator[Plain]:
@@ -168,25 +169,42 @@ def friction(
 def restitution(
     scene: Scene, contact: Any, reference: Trajectory, motion: Trajectory
 ) -> Iterator[Plain]:
-    """Yields the restitution of the first impact: the fastest way back over the fastest approach.
+    """Yields the restitution of the first impact: the speed after it over that before.
 
-    An engine may take a while for it: from the start to half the way to the next event.
+    An engine may take a while for it: it lasts as long as the speed grows faster than what acts
+    besides makes it grow, as the reference knows, and is over where it has thrown back fastest.
     """
     plane = contact.name in scene.contacts
     if not contact.switches or (plane and contact.tips):  # in space nothing switches
         return
     record, every = reference.record, motion.record
     struck = _first_impact(scene, contact, record) if record else None
-    if struck is None or every is None:
+    if record is None or struck is None or every is None:
         return
     later = [t for t in reference.switches.tolist() if t > struck]
     last = (struck + later[0]) / 2 if later else float(every.times[-1])
-    speed = _rising(scene, contact, every)[every.times <= last]
-    lowest = int(np.argmin(speed))
-    back = max(0.0, float(np.max(speed[lowest:])))
-    yield Plain(
-        f"restitution of {contact.name}", back / -float(speed[lowest]), "", contact.restitution
-    )
+    speed, times = _rising(scene, contact, every), every.times
+    speed, times = speed[times <= last], times[times <= last]
+    grows = np.diff(speed)
+    strikes = grows > _besides(scene, contact, record, last) * np.diff(times)
+    if not np.any(strikes):
+        return
+    calm, peak = np.flatnonzero(~strikes).tolist(), int(np.argmax(grows))
+    begins = max((k + 1 for k in calm if k < peak), default=0)
+    ends = [k for k in range(peak + 1, len(grows)) if strikes[k - 1] and not strikes[k]]
+    back = np.max(speed[ends or [-1]])
+    if speed[begins] < 0.0:
+        share = max(0.0, float(back)) / -float(speed[begins])
+        yield Plain(f"restitution of {contact.name}", share, "", contact.restitution)
+
+
+def _besides(scene: Scene, contact: Any, record: Trajectory, last: float) -> float:
+    """The fastest growth [m/s²] of the reference's normal velocity between impacts, and a bit."""
+    assert record.phase is not None
+    speed, times = _rising(scene, contact, record), record.times
+    smooth = (np.diff(record.phase) == 0) & (np.diff(times) > 0) & (times[1:] <= last)
+    grows = np.diff(speed)[smooth] / np.diff(times)[smooth]
+    return float(np.max(grows, initial=0.0) + BESIDES * np.max(np.abs(grows), initial=0.0))
 
 
 def _first_impact(scene: Scene, contact: Any, record: Trajectory) -> float | None:

@@ -162,3 +162,30 @@ def test_axes_in_a_cycle_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("textmech.reference.start.spatial_closure.ALIKE", -0.5)
     assert meant("its axes in a cycle", tmp_path)[1]
     assert not meant("across its line, half a turn", tmp_path)[1]
+
+
+HUNG = f"""\
+scene:
+  space: 3
+  points: {{O: [PLACE, 0, 0]}}
+  bodies: {{a: {BODY}, b: {BODY}}}
+  joints:
+    neck: {{ball: [ground.O, a.p]}}
+    elbow: {{ball: [a.q, b.p]}}
+initial:
+  b: {{attitude: {{axis: [0, 1, 0], angle: 30 deg}}}}
+  a: {{attitude: {{axis: [1, 0, 1], angle: 200 deg}}}}
+"""
+
+
+@pytest.mark.parametrize("place", ["0", "20", "1.0e+4"])
+def test_what_is_turned_hangs_where_its_joint_is(tmp_path: Path, place: str) -> None:
+    """However many of its sizes that is from the origin; Newton goes one of them in a step."""
+    q = started(tmp_path, HUNG.replace("PLACE", place))
+    case = typed(tmp_path, HUNG.replace("PLACE", place) + "allow: {a.x: 1.0e-3}\n")
+    closure = SpatialClosure(case)
+    assert np.max(np.abs(closure.equations(q)[0])) < 1e-15 * max(float(place), 1.0) / closure.size
+    at_origin = started(tmp_path, HUNG.replace("PLACE", "0"))
+    moved = closure.where.slots["a"].r, closure.where.slots["b"].r
+    at_origin[list(moved)] += float(place)
+    np.testing.assert_allclose(q, at_origin, rtol=0.0, atol=1e-15 * max(float(place), 1.0))
