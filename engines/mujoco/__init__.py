@@ -1,5 +1,6 @@
 """MuJoCo behind the protocol of `engines.engine`, for scenes of the plane and of space."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -113,13 +114,22 @@ class MuJoCo:
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Elements of an MJCF file in which geoms touch, as users write them."""
+        bodies = scene.bodies
         scene, start = with_rods(scene, start)
         with_own = partial(settings.with_own, scene=scene, start=start, tied_to=step)
         touches, plane = bool(worth(scene)), scene.frame is PLANE
         timed = any(law.law not in BY_ITSELF for law in scene.laws())
-        notes = option_notes(options, contacts=touches, plane=plane, timed=timed)
-        rubs = max((contact.friction for contact in met(scene)), default=None)
-        return snippet(with_own(options), with_own({}), step, notes, friction=rubs)
+        rods = [name for name in scene.bodies if name not in bodies]
+        drives = sorted({quantity.partition(".")[0] for quantity in scene.drives})
+        notes = option_notes(
+            options, contacts=touches, plane=plane, timed=timed, rods=rods, drives=drives
+        )
+        frictions = {contact.name: contact.friction for contact in met(scene)}
+        touching = Counter(contact.body for contact in met(scene))
+        points = max(touching.values(), default=0)
+        return snippet(
+            with_own(options), with_own({}), step, notes, frictions=frictions, points=points
+        )
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""

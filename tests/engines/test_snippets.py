@@ -130,6 +130,45 @@ def test_what_no_line_says_is_a_comment(
     assert note not in engine.snippet(scene, start, {}, STEP)
 
 
+CORNER = """\
+scene:
+  planes: {wall: {at: [0, 0], normal: [1, 0]}}
+  bodies: {d: {disk: {mass: 2, radius: 0.2}}}
+  contacts:
+    f: {between: [d, ground.floor], friction: 0.2}
+    w: {between: [d, ground.wall], friction: 0}
+initial: {d: {x: 0.2, y: 0.2, omega: -1}}
+allow: {d.omega: 1.0e-2}
+"""
+
+
+def test_contacts_that_differ_have_a_pair_each(tmp_path: Path) -> None:
+    case = scenes.typed(tmp_path, CORNER)
+    start = first(solve(case).trajectory)
+    soft = {"pair": {"solref": ["-10/h2", "-1/h"], "solimp": [0.0001, 0.0001, 0.001]}}
+    text = MuJoCo("shipped").snippet(case.scene, start, soft, STEP)
+    assert 'condim="3" friction="0.2 0.2" /> for f,' in text
+    assert 'condim="1" friction="0.0 0.0" /> for w' in text
+    assert "this is for 2 of a body, and a box geom touches a plane at four" in text
+
+
+@pytest.mark.parametrize(
+    ("name", "note"),
+    [
+        ("driven_wheel.circle", "has a heavy armature that goes on at the given rate"),
+        ("four_bar", ""),
+        ("particle_pendulum", "of hardly any mass with a hinge at either end"),
+    ],
+)
+def test_how_the_model_is_built_is_said_where_another_is_near(name: str, note: str) -> None:
+    """With a velocity actuator, or a tendon for a rod, what is claimed is not reached by far."""
+    scene, start = begun(name)
+    text = MuJoCo("shipped").snippet(scene, start, {"integrator": "RK4"}, STEP)
+    said = "".join(line for line in text.splitlines() if "of a model in which" in line)
+    assert note in said
+    assert bool(said) == bool(note)
+
+
 def test_what_needs_a_solreffriction_is_for_pairs_alone() -> None:
     """With the rest of it a thrown disk of geoms hops by 10 cm, and by 1 cm as shipped."""
     scene, start = begun("sliding_disk.uphill")

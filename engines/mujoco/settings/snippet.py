@@ -1,6 +1,6 @@
 """Options as elements of an MJCF file, ready to paste between `<mujoco>` and `</mujoco>`."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 from ...engine import Choice
@@ -19,8 +19,13 @@ _KEPT = {
 """What else decides, of an element of <default>."""
 _PAIRS = (
     "a <pair> has no number of its geoms, nor their friction and condim: it takes these{need}. Of "
-    "the geoms that touch: <contact>"
-    '<pair geom1="…" geom2="…" condim="3" friction="{friction} {friction}" /></contact>'
+    "the geoms that touch: <contact>{pairs}</contact>"
+)
+_PAIR = '<pair geom1="…" geom2="…" condim="{condim}" friction="{friction} {friction}" />'
+_SOFT = 0.01  # of d: below it a contact is a spring and a damper, as in our recipes
+_POINTS = (
+    "each point at which a body touches is a spring and a damper, and those of a body add up: this "
+    "is for {points} of a body, and a box geom touches a plane at four"
 )
 _NEED = "; and only a pair has a solreffriction, without which the rest makes it hop"
 _PYRAMID = "a contact is the softer the larger its friction, as its cone is a pyramid: this is for "
@@ -33,13 +38,16 @@ def snippet(
     step: float,
     notes: Sequence[str],
     *,
-    friction: float | None = None,
+    frictions: Mapping[str, float],
+    points: int = 0,
 ) -> str:
     """MJCF elements for choices that differ from MuJoCo's own, for a model in which geoms touch.
 
-    notes: what no element says. friction: of the scene's contacts, where it has any. Numbers that
-    need a solreffriction beside them are for a <pair> alone: a geom has none, and hops with them.
+    notes: what no element says. frictions: of the scene's contacts, by name. points: at most so
+    many of them are of one body. Numbers that need a solreffriction beside them are for a <pair>
+    alone: a geom has none, and hops with them.
     """
+    friction = max(frictions.values(), default=None)
     before = {choice.name: choice.value for choice in shipped}
     changed = {c.name: c.value for c in choices if before.get(c.name) != c.value}
     option = ET.Element("option", {"timestep": written(step)} | attributes(changed, "option"))
@@ -63,7 +71,9 @@ def snippet(
     beside += [_KEPT[element.tag] for element in default if element.tag in _KEPT]
     if (pair := default.find("pair")) is not None:
         need = _NEED if _ALONE in pair.attrib else ""
-        beside.append(_PAIRS.format(need=need, friction=written(friction or 0.0)))
+        beside.append(_PAIRS.format(need=need, pairs=_pairs(frictions)))
+        if float(pair.get("solimp", "1").split()[0]) < _SOFT:
+            beside.append(_POINTS.format(points="one" if points == 1 else points))
     pyramid = {choice.name: choice.value for choice in choices}.get("option.cone") == "pyramidal"
     if pyramid and friction and any(name.startswith(_CONTACTS) for name in changed):
         beside.append(_PYRAMID + written(friction))
@@ -76,12 +86,46 @@ def snippet(
     )
 
 
-def option_notes(options: Options, *, contacts: bool, plane: bool, timed: bool) -> list[str]:
-    """Notes on those of the options that no element says.
+def _pairs(frictions: Mapping[str, float]) -> str:
+    """One <pair> for contacts that are alike, or one for each of them, by its name."""
+    alike: dict[float, list[str]] = {}
+    for name, friction in frictions.items():
+        alike.setdefault(friction, []).append(name)
+    pairs = {
+        _PAIR.format(condim=3 if friction else 1, friction=written(friction)): " and ".join(names)
+        for friction, names in (alike or {0.0: []}).items()
+    }
+    return ", ".join(
+        f"{pair} for {names}" if len(pairs) > 1 else pair for pair, names in pairs.items()
+    )
 
-    timed: whether a control follows a law in time.
+
+def option_notes(
+    options: Options,
+    *,
+    contacts: bool,
+    plane: bool,
+    timed: bool,
+    rods: Collection[str],
+    drives: Collection[str],
+) -> list[str]:
+    """Notes on those of the options that no element says, and on how the scene is built.
+
+    timed: whether a control follows a law in time. rods: bodies that stand for its distances;
+    drives: joints that are driven.
     """
     notes = []
+    if rods:
+        are = "is a body" if len(rods) == 1 else "are bodies"
+        notes.append(
+            f"of a model in which {' and '.join(rods)} {are} of hardly any mass with a hinge at "
+            "either end: a tendon that is held by an equality is soft, and another model"
+        )
+    if drives:
+        notes.append(
+            f"of a model in which {' and '.join(drives)} has a heavy armature that goes on at the "
+            "given rate: a <velocity> actuator follows it softly, and is another model"
+        )
     if timed and options.get("integrator") == "RK4":
         notes.append(
             "a control that follows a law in time is to be set in mjcb_control, which RK4 asks at "
@@ -91,7 +135,10 @@ def option_notes(options: Options, *, contacts: bool, plane: bool, timed: bool) 
     if contacts and options.get("settled"):
         notes.append("starts as deep in the floor as it is carried there: the keyframe of `show`")
     if contacts and plane and options.get("noslip_iterations"):
-        notes.append("noslip does nothing for a body that has no freedom along the third axis")
+        notes.append(
+            "noslip does nothing for a body that has no freedom along the third axis, and all else "
+            "here counts on it: give such a body a slide along that axis, or it hardly rubs"
+        )
     return notes
 
 
