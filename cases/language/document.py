@@ -83,6 +83,8 @@ def _text(path: FilePath) -> str:
 
     if path.is_dir():
         raise refuse("is a directory; a case is one YAML file")
+    if path.exists() and not path.is_file():
+        raise refuse("is no file")  # a pipe would be waited for
     try:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)

@@ -222,6 +222,8 @@ def test_what_is_there_and_is_no_file(tmp_path: Path) -> None:
         find([str(pipe), str(loop)])
     said = {m.file: m.what for m in caught.value.mistakes}
     assert said == {str(pipe): "is no file", str(loop): "is no file: a link that leads nowhere"}
+    with pytest.raises(CaseError, match=r"pipe\.yaml: is no file"):
+        load(pipe)
 
 
 def test_of_an_engine_that_cannot_be_imported_no_setting_is_known(tmp_path: Path) -> None:

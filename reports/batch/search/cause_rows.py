@@ -1,11 +1,11 @@
 """Rows of causes.csv: each cure in words, with its options, its step and its price."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 
 from ....engines.engine import Tunable
-from ....engines.knobs import as_text, merged
+from ....engines.knobs import Options, as_text
 from ...data.row import Cause, Comparison, StepError, as_written
 from ..tasks import Pair
 from .candidate import Candidate
@@ -46,7 +46,7 @@ def _cause(asked: Asked, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
         words = f"all of {words}"  # fewer may do: not all sets of them were tried
     return replace(
         without(row, f"{words}, but for the instant" if elsewhere else words),
-        options=as_text(merged(*(lever.options for lever in cure.turned))),
+        options=as_text(cure.candidate.options),
         step=cure.candidate.step,
         # As the report says them: a sentence about a row that is carried over must be the same.
         error_after=as_written(cure.error * (row.allowed or 0.0)),
@@ -63,11 +63,21 @@ def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
     ]
 
 
-def by_ladder(rows: Sequence[Comparison], steps: Sequence[StepError]) -> Iterator[Cause]:
-    """The step, where a row's own ladder knows one that is small enough."""
+def by_ladder(
+    rows: Sequence[Comparison],
+    steps: Sequence[StepError],
+    own: Callable[[Comparison], Options],
+) -> Iterator[Cause]:
+    """The step, where a row's own ladder knows one that is small enough.
+
+    own: the options of the row's setting.
+    """
     for row, step, error in usable(rows, steps):
         yield replace(
-            without(row, STEP.words), options="{}", step=step, error_after=as_written(error)
+            without(row, STEP.words),
+            options=as_text(own(row)),
+            step=step,
+            error_after=as_written(error),
         )
 
 

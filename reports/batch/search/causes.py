@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from .... import engines
 from ....engines.engine import Tunable
+from ....engines.knobs import Options
 from ....reference.solve import Solution
 from ...compare.trial.ladder import judged_step
 from ...compare.trial.start import first
@@ -60,7 +61,9 @@ def causes(
     states = {pair.case.name for pair in pairs if pair.case.states is not None}
     found |= {key_of(row): [without(row, NOTHING)] for row in left if row.case in states}
     if search:
-        found |= {key_of(cause): [cause] for cause in by_ladder(left, steps)}
+        of = {_where_of(pair): pair for pair in pairs}
+        own = lambda row: _own(of[_where(row)]) if _where(row) in of else {}  # noqa: E731
+        found |= {key_of(cause): [cause] for cause in by_ladder(left, steps, own)}
         words = _words(left, pairs, results)
         moved = _moved(comparisons, known) if known else set[tuple[str, str]]()
         same = [row for row in left if (row.case, row.engine) not in moved]
@@ -80,6 +83,18 @@ def _where(row: Comparison) -> tuple[str, str, str]:
     return row.case, row.engine, row.setting
 
 
+def _where_of(pair: Pair) -> tuple[str, str, str]:
+    return pair.case.name, pair.engine.name, pair.engine.setting
+
+
+def _own(pair: Pair) -> Options:
+    """The options of a pair's own setting, as a file of settings has them, without the step."""
+    engine = pair.engine
+    if engine.setting == "tuned" and isinstance(engine, Tunable):
+        return engine.recipe(pair.case.scene, first(pair.reference()))
+    return {k: v for k, v in getattr(engine, "options", {}).items() if k != "step"}
+
+
 def _words(
     rows: Sequence[Comparison], pairs: Iterable[Pair], results: Results
 ) -> dict[tuple[str, str, str], str]:
@@ -87,7 +102,7 @@ def _words(
     asked = {_where(row) for row in rows}
     words: dict[tuple[str, str, str], str] = {}
     for pair in pairs:
-        where = pair.case.name, pair.engine.name, pair.engine.setting
+        where = _where_of(pair)
         if where in asked:
             word = results.keys.search(pair.case, pair.engine)
             words[where] = f"{pair.engine.version} {word[:LETTERS]}" if word else ""
@@ -132,7 +147,7 @@ def _searched(
     tunable = {
         key: pair
         for pair in pairs
-        for key in [(pair.case.name, pair.engine.name, pair.engine.setting)]
+        for key in [_where_of(pair)]
         if key in of and pair.case.states is None and isinstance(pair.engine, Tunable)
     }
     asked: dict[str, Asked] = {}
@@ -186,10 +201,10 @@ def between(pair: Pair) -> Field:
     step, start = judged_step(case, engine), first(pair.reference())
     knobs = engine.knobs(case.scene, start)
     if engine.setting == "tuned":
-        base = Candidate.of(engine.recipe(case.scene, start), step)
+        base = Candidate.of(_own(pair), step)
         steps = halved(step, step / FINEST)
         return Field(base, [STEP], steps, steps, wholes=wholes(knobs))
-    own = {k: v for k, v in getattr(engine, "options", {}).items() if k != "step"}
+    own = _own(pair)
     best = [engines.make(engine.name, "tuned")] if "tuned" in engines.settings(engine.name) else []
     least = min((judged_step(case, tuned) for tuned in best), default=step)
     found = levers(knobs, own)

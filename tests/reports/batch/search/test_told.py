@@ -48,6 +48,16 @@ def causes(pair: Pair, module: Any = told) -> list[tuple[str, float | None]]:
     return [(cause.cure, cause.cost) for cause in rows]
 
 
+def test_options_are_all_that_a_file_of_settings_needs(pair: Pair) -> None:
+    """A cure of the recommended setting is put upon its options, and shipped is none of them."""
+    stiff = {"solref": [0.005, 1.0]}
+    base = Candidate.of(stiff, OWN)
+    field = Field(base, [RK4, STEP], [OWN, OWN / 8], [OWN, OWN / 8])
+    found = Cured([Cure((RK4,), field.candidate((RK4,)), 0.5, "")])
+    (cause,) = told.searched(told.Asked(pair, field, []), row(ratio=3.0), found)
+    assert cause.options == "{integrator: RK4, solref: [0.005, 1.0]}"
+
+
 @pytest.mark.slow
 @pytest.mark.mutant("a cure's {named}")
 @pytest.mark.parametrize(
