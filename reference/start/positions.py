@@ -12,6 +12,8 @@ from .planar_closure import PlanarClosure
 from .search import BESIDE, DEAD, FAR, NEAR, RANK, SAME, least_of, null, search
 from .spatial_closure import SpatialClosure
 
+ASIDE = 1e-2  # of the size, or rad: beside a dead centre
+
 EitherClosure = PlanarClosure | SpatialClosure
 
 
@@ -67,9 +69,17 @@ def _determined(closure: EitherClosure, q: Array) -> None:
             loose[:, closure.free] = ways
             # What the smallest values that count leave of what is determined is as small as they.
             names = closure.open_names(q, loose, max(SAME, 10 * below))
-            if below == RANK:
+            if below == RANK and not _only_here(closure, q):
                 raise messages.missing(closure.case, len(ways), names)
             raise messages.dead_centre(closure.case, names)
+
+
+def _only_here(closure: EitherClosure, q: Array) -> bool:
+    """Whether the rows leave nothing open beside q: a dead centre, where what is given is enough."""
+    change = np.zeros(closure.n)
+    change[closure.free] = np.random.default_rng(seed=1).uniform(-1.0, 1.0, len(closure.free))
+    beside = closure.moved(q, ASIDE * change * closure.units)
+    return not len(null(closure.equations(beside)[1][:, closure.free], len(closure.free)))
 
 
 # Why there is no start, in words that name the part and the number.
