@@ -75,7 +75,7 @@ def _determined(closure: EitherClosure, q: Array) -> None:
 
 
 def _only_here(closure: EitherClosure, q: Array) -> bool:
-    """Whether the rows leave nothing open beside q: a dead centre, where what is given is enough."""
+    """Whether nothing is open beside q: at a dead centre what is given is enough, but there."""
     change = np.zeros(closure.n)
     change[closure.free] = np.random.default_rng(seed=1).uniform(-1.0, 1.0, len(closure.free))
     beside = closure.moved(q, ASIDE * change * closure.units)
