@@ -77,13 +77,15 @@ def first(
     spent: int | None,
     rounding: Rounding | None = None,
     nothing: Sequence[float] = (),
+    soon: int = 0,
 ) -> tuple[tuple[int, float] | None, list[tuple[int, float]]]:
     """Which guard falls first in the step from t, and how far into it; and which touch zero before.
 
     points: 0, some times inside the step, and its length; states: y at each of them. begins: the
     mode does, with this step. spent: the guard that ended it just before. rounding: what is no more
     than that is zero, and a guard that is zero begins. nothing: for each guard, of what size it is
-    none all along.
+    none all along. soon: so many of the points are right after the begin, where only guards are
+    looked at of which it is known what is nothing.
     """
     found, touched = None, list[tuple[int, float]]()
     # All guards at one state: they ask for the same forces.
@@ -94,14 +96,19 @@ def first(
         def g(at: float, guard: Fall = guard) -> float:
             return guard(t + at, state(at))
 
-        values = [row[i] for row in rows]
-        if nothing and max(map(abs, values)) <= nothing[i]:
+        values, none = [row[i] for row in rows], nothing[i] if nothing else 0.0
+        if nothing and max(map(abs, values)) <= none:
             continue
         if rounding is not None:
             pairs = zip(values, rounding(guard, states[-1]), strict=True)
             values = [value if abs(value) > room else 0.0 for value, room in pairs]
         fresh = begins or (rounding is not None and values[0] == 0.0)
-        at, touch = crossing(g, points, values, begins=fresh, spent=i == spent)
+        looked = points
+        if soon and none:
+            values[: soon + 1] = [x if abs(x) > none else 0.0 for x in values[: soon + 1]]
+        elif soon:
+            looked, values = [0.0, *points[soon + 1 :]], [values[0], *values[soon + 1 :]]
+        at, touch = crossing(g, looked, values, begins=fresh, spent=i == spent)
         if at is not None and (found is None or at < found[1] - TOGETHER):
             found = i, at
         if touch is not None:

@@ -196,14 +196,15 @@ class _Walk:
                 sure = not begins and not mode.stiff
                 looks = not (sure and clear(falls, f, step.t, length, step.y, step.y_next))
             near = falls if looks else ()
-            soon = SOON if begins and any(_at_zero(fall, step) for fall in near) else ()
+            none = [guard.rounds(mode.parted(step.y)[0]) for guard in guards if looks]
+            known = (fall for fall, size in zip(near, none, strict=True) if size)
+            soon = SOON if begins and any(_at_zero(fall, step) for fall in known) else ()
             points = [0.0, *(part * length for part in (*soon, *INSIDE) if looks), length]
             states = [state(at) for at in points]
             spent = self.spent if begins else None
-            none = [guard.rounds(mode.parted(step.y)[0]) for guard in guards if looks]
             fallen = partial(
                 first, near, step.t, points, states, state,
-                begins=begins, spent=spent, nothing=none,
+                begins=begins, spent=spent, nothing=none, soon=len(soon),
             )  # fmt: skip
             found, touched = fallen()
             room = early.rounding(step.t, points) if found is not None else None

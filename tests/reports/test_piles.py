@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference.certificate import errors
-from textmech.reference.mechanism.modes import mode_selection
+from textmech.reference.mechanism.modes import mechanism, mode_selection
 from textmech.reference.motion.follow import _Walk
 from textmech.reference.solve import Solution, solve
 from textmech.reports.compare.events import times as reading
@@ -225,7 +225,15 @@ def hop(parts: float) -> tuple[float, float]:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("parts", "friction", "periods"),
-    [(1.001, 0.3, 1), (1.005, 0.3, 2), (1.001, 0.0, 2), (1.002, 0.0, 2), (1.0001, 0.0, 1)],
+    [
+        (1.001, 0.3, 1),
+        (1.005, 0.3, 2),
+        (1.001, 0.0, 2),
+        (1.002, 0.0, 2),
+        (1.0001, 0.0, 1),
+        (1.0005, 0.3, 2),
+        (1.01, 0.3, 2),
+    ],
 )
 def test_a_platform_that_hardly_lets_go(
     tmp_path: Path, parts: float, friction: float, periods: int
@@ -243,7 +251,10 @@ def test_a_platform_that_hardly_lets_go(
 @pytest.mark.slow
 @pytest.mark.mutant("a landing by rounding, just after it has let go, is one")
 def test_rounding_lands_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By itself: that a gap of rounding is not looked at hides it in this scene."""
     case = shaken(tmp_path, 1.0001, 0.3, 0.6)
+    assert solve(case).holds
+    monkeypatch.setattr(mechanism, "ROUNDS", 0.0)
     assert solve(case).holds
     monkeypatch.setattr(_Walk, "_trembles", lambda *_: False)
     assert not solve(case).holds
@@ -252,6 +263,7 @@ def test_rounding_lands_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 @pytest.mark.slow
 @pytest.mark.mutant("where nothing presses, two ways to slide are two motions")
 def test_what_does_not_press_does_not_rub(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mechanism, "ROUNDS", 0.0)  # else nothing is pressed by rounding there
     monkeypatch.setattr(mode_selection, "_exert_alike", lambda *_: False)
     with pytest.raises(CaseError, match="held by the others already"):
         solve(shaken(tmp_path, 1.0001, 0.3, 0.6))

@@ -1,6 +1,7 @@
 """What is kept of a motion: samples, changes, and on demand its steps."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from given.watched import Oscillator, Watched
 
 from textmech.reference.motion import follow as module
 from textmech.reference.motion.follow import Followed, Kept, follow
-from textmech.reference.system import Array
+from textmech.reference.system import Array, Guard
 from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 
 DISK = BouncingDisk(m=1.0, R=0.25, e=1.0, y0=0.75)
@@ -133,10 +134,17 @@ def test_rows_beyond_an_event_are_seen(monkeypatch: pytest.MonkeyPatch):
     assert loose_ends(bouncing(), 3.0) >= 5
 
 
+class Rounded(Watched):
+    """Guards of which it is known what of them is rounding, as it is of gaps."""
+
+    def guards(self, mode: str) -> list[Guard]:
+        return [replace(guard, rounds=lambda q: 1e-16) for guard in super().guards(mode)]
+
+
 def soon() -> list[float]:
     """When a guard falls that is zero at first, and below zero from 0.05 to 1.5 ms."""
     dips = lambda t, x, v: t * (5e-5 - t) * (1.5e-3 - t)  # noqa: E731
-    return [e.time for e in follow(Watched([("down", dips)], Oscillator()), TIMES).events]
+    return [e.time for e in follow(Rounded([("down", dips)], Oscillator()), TIMES).events]
 
 
 def test_what_begins_at_zero_and_falls_at_once_for_a_moment_falls() -> None:
