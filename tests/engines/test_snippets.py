@@ -142,6 +142,7 @@ allow: {d.omega: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_contacts_that_differ_have_a_pair_each(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, CORNER)
     start = first(solve(case).trajectory)

@@ -49,6 +49,7 @@ def off(folder: Path, text: str) -> tuple[float, float]:
     return float(np.abs(turned).max()), float(np.abs(forces).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "angle", "force"),
     [(LADDER, 3e-7, 1e-4), (DISK, 1e-5, 1e-8)],  # measured 9e-8 rad, 3e-5 N; 3e-6 rad, 4e-10 N
@@ -62,6 +63,7 @@ def test_it_starts_where_its_planes_carry_it(
     assert pressed < force
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a start of sweeps that run round, between what sticks and what slides")
 @pytest.mark.parametrize("text", [LADDER, DISK], ids=["ladder", "disk"])
 def test_a_start_that_has_not_settled_is_seen(

@@ -151,6 +151,7 @@ allow: {v0.force: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("rounding of a speed that is none has a viscous force by its root")
 @pytest.mark.parametrize("slows", ["viscous: r0", "drag: c0.center"])
 def test_what_starts_at_no_speed_has_no_viscous_force(

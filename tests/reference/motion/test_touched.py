@@ -203,6 +203,7 @@ def beside(folder: Path, samples: int) -> Case:
     return scenes.typed(folder, BESIDE, tail=scenes.tail(2.0, samples))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("samples", [3, 5, 41])
 def test_what_flies_along_a_plane_without_a_force_neither_lands_nor_touches(
     tmp_path: Path, samples: int
@@ -212,6 +213,7 @@ def test_what_flies_along_a_plane_without_a_force_neither_lands_nor_touches(
     assert len(solution.trajectory.switches) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a gap of rounding all along taken for one that comes to zero and turns back")
 def test_a_gap_of_rounding_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mechanism, "ROUNDS", 0.0)
