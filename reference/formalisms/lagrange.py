@@ -16,7 +16,7 @@ import numpy as np
 from ..system import Array, Mode, Vector
 from .derivative import along
 
-MOST = 1e6  # times the energy of what is driven
+MOST = 1e6  # times the energy of what is driven: T is quadratic, so large rates cost no digits
 
 
 def multipliers(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, Array]:

@@ -35,7 +35,7 @@ from .spatial_mode import SpatialMultibody
 from .unilateral import HAPPENS, OTHER, OneSided
 
 CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
-ROUNDS = 8 * 2.2e-16  # of the scene's size and places: a gap of their rounding, over many steps
+ROUNDS = 8 * 2.2e-16  # of the scene's size and places: by 64 a wheel's last rocks were lost
 STEEP = 2.0  # how deep a foot may be for each metre that it is behind
 PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
 
