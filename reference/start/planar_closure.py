@@ -56,12 +56,19 @@ class PlanarClosure(Closure):
     def givens(self) -> tuple[Mapping[int, float], Collection[int]]:
         """Returns what is given, and the angles that slides, welds and joints hold against it."""
         self._locks = [lock for part in self.parts for lock in self._held_by(part)]
-        for name, placement in self.case.initial.items():
-            if name in self.scene.joints and "angle" in placement.given:
-                a, b = map(self._column, self.scene.joints[name].refers())
-                self._locks.append(Lock(a, b, placement.given["angle"]))
+        self._locks += self._turned(self.case.initial)
+        self._guessed = self._turned(self.case.near)
         found = held_angles(self._locks, self.body_coordinates(self.case.initial))
         return found, found.keys()
+
+    def _turned(self, placements: Mapping[str, Placement]) -> list[Lock]:
+        """The angles that placements say of joints."""
+        said = [
+            (self.scene.joints[name], placement.given["angle"])
+            for name, placement in placements.items()
+            if name in self.scene.joints and "angle" in placement.given
+        ]
+        return [Lock(self._column(j.a), self._column(j.b), angle) for j, angle in said]
 
     def _held_by(self, part: Constraint) -> Iterator[Lock]:
         for angle, angular in zip(part.held or (), part.angular, strict=part.holonomic):
@@ -117,7 +124,7 @@ class PlanarClosure(Closure):
         known = dict(self.given)
         for i in self.free[self.turning[self.free]].tolist():
             if i not in known:
-                base = near.get(i, 0.0)
+                base = held_angles(self._guessed, {**near, **known}).get(i, 0.0)
                 turned = math.remainder(q[i] - base, math.tau)
                 known[i] = base + (turned if turned > FULL_TURN - math.pi else turned + math.tau)
                 known = held_angles(self._locks, known)
@@ -148,7 +155,8 @@ class PlanarClosure(Closure):
         """Yields guesses with what is near kept, ever less so, and the free angles anywhere."""
         near, rng = self.body_coordinates(self.case.near), np.random.default_rng(seed=1)
         kept = np.zeros(self.n)
-        kept[[i for i in near if i not in self.given]] = 1.0
+        turned = [i for lock in self._guessed for i in (lock.a, lock.b) if i is not None]
+        kept[[i for i in (*near, *turned) if i not in self.given]] = 1.0
         for k, q in enumerate(self._scattered(count, rng)):
             off = kept * self.units * rng.uniform(-NEAR, NEAR, self.n) * k / count
             yield self._laid_out(self._said(q) + off)
@@ -170,10 +178,15 @@ class PlanarClosure(Closure):
             yield q
 
     def _said(self, q: Array) -> Array:
-        """q with what is near and what is given in their places."""
-        near = self.body_coordinates(self.case.near)
-        q[list(near)] = list(near.values())
-        return self.with_given(q)
+        """q with what is near and what is given in their places; a joint turns its second part."""
+        known = {**self.body_coordinates(self.case.near), **self.given}
+        locks = [*self._locks, *self._guessed]
+        for a, b, _ in self._guessed:
+            known = held_angles(locks, known)
+            if a is not None and a not in known and b not in known:
+                known = held_angles(locks, {**known, a: float(q[a])})
+        q[list(known)] = list(known.values())
+        return q
 
     def _laid_out(self, guess: Array, keep: Collection[int] = ()) -> Array:
         """The guess with the places that fit its angles best: that much is linear."""

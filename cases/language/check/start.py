@@ -23,30 +23,28 @@ def starts(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     if scene.frame.dimension == 2:
         yield from _speeds(parsed, scene)
         yield from _polar(parsed, scene)
-        yield from _posed(parsed, scene)
 
 
-def _nobody(parsed: Parsed, scene: Scene, key: str, name: str) -> str:
-    """A start may be given by a joint, a guess only by a body."""
-    known = parsed.names("bodies", scene.bodies)
-    if key == "near" and name in scene.joints:
-        return f"{name!r} is a joint; a guess is given by a body"
-    if key == "initial":
-        known += parsed.names("joints", scene.joints)
-    kinds = "body or joint" if key == "initial" else "body"
-    return f"unknown {kinds} {name!r}{nearest(name, known)}"
+def _nobody(parsed: Parsed, scene: Scene, name: str) -> str:
+    known = [*parsed.names("bodies", scene.bodies), *parsed.names("joints", scene.joints)]
+    return f"unknown body or joint {name!r}{nearest(name, known)}"
 
 
 def _placed(
     parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
 ) -> Iterator[Finding]:
     for name, place in places.items():
-        if key == "initial" and (name in scene.constraints or name in scene.joints):
+        if name in scene.joints:
+            yield from _of_planar_joint((key, name), scene, place)
+            continue
+        if key == "initial" and name in scene.constraints:
             continue
         if name not in scene.bodies:
             if not parsed.hides(name):
-                yield (key, name), _nobody(parsed, scene, key, name)
+                yield (key, name), _nobody(parsed, scene, name)
             continue
+        if place.shift is not None:
+            yield (key, name, "shift"), "only a joint that slides has a `shift`"
         for point in place.places:
             if point not in scene.bodies[name].points:
                 yield from no_point(parsed, scene, (key, name, point), Anchor(name, point))
@@ -106,29 +104,28 @@ def _origin(parsed: Parsed, scene: Scene, name: str, start: Initial) -> Iterator
         yield path, f"the ground has no point {at.point!r}{nearest(at.point, known)}"
 
 
-# Starts by joints: only the coordinates that a joint has can be given, and their rates.
+# By joints: only the coordinates that a joint has can be given, and at the start their rates.
 
 
-def _posed(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Every mistake in starts by sound joints, and the shift of what is no joint."""
-    left = scene.coordinates()
-    for name, start in parsed.file.initial.items():
-        if name not in scene.joints:
-            if "shift" in start.model_fields_set:
-                yield ("initial", name, "shift"), "only a joint that slides starts with a `shift`"
-            continue
-        kind = scene.joints[name].kind
-        for key in (*start.given, *start.places):
-            if key not in left[name]:
-                yield ("initial", name, key), _unknown(name, kind, key, list(left[name]))
+def _of_planar_joint(path: Path, scene: Scene, place: Near) -> Iterator[Finding]:
+    """Every mistake in what is said of a joint."""
+    key, name = path
+    joint, starts = scene.joints[str(name)], key == "initial"
+    known = [word for word in scene.coordinates()[joint.name] if starts or word not in joint.rates]
+    by = "it starts by" if starts else "a guess says"
+    for word in (*place.given, *place.places):
+        if word not in known:
+            yield (*path, word), _unknown(joint, word, known, by)
 
 
-def _unknown(name: str, kind: str, key: str, known: list[str]) -> str:
+def _unknown(joint: Joint, key: str, known: list[str], by: str) -> str:
+    what = f"{joint.name!r} is a {joint.kind}"
     if not known:
-        return f"{name!r} is a {kind} and leaves nothing that could be given"
+        return f"{what} and leaves nothing that could be given"
+    may = f"{by} {' and '.join(known)}"
     if key in WORDS:
-        return f"{name!r} is a {kind} and has no {key}; it starts by {' and '.join(known)}"
-    return f"{name!r} is a {kind} and starts by {' and '.join(known)}{nearest(key, known)}"
+        return f"{what} and has no {key}; {may}"
+    return f"{what}; {may}{nearest(key, known)}"
 
 
 # In space: places, attitudes and rates of bodies, and coordinates of joints.

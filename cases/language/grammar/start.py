@@ -20,7 +20,7 @@ POLAR = ("from_", "length", "direction")  # how a start gives a place by a dista
 
 
 class Near(Part):
-    """A guess of where a body is, by its coordinates or by the places of its points."""
+    """A guess: of a body its coordinates or the places of its points; of a joint what it leaves."""
 
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[str, Position] = Field(init=False)  # type: ignore[assignment]
@@ -28,6 +28,7 @@ class Near(Part):
     x: Annotated[float, In("m")] | None = None
     y: Annotated[float, In("m")] | None = None
     angle: Angle | None = None
+    shift: Annotated[float, In("m")] | None = Field(None, description="of a joint, along its line")
 
     @property
     def places(self) -> dict[str, tuple[float, float]]:
@@ -73,7 +74,6 @@ class Initial(Near):
     vx: Annotated[float, In("m/s")] | None = None
     vy: Annotated[float, In("m/s")] | None = None
     omega: Annotated[float, In("rad/s")] | None = None
-    shift: Annotated[float, In("m")] | None = Field(None, description="of a joint, along its line")
     speed: Annotated[float, In("m/s")] | None = Field(
         None, description="of an edge or a joint, along it"
     )

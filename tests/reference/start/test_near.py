@@ -71,6 +71,51 @@ def test_near_a_turn_off_what_is_given_is_a_mistake_in_the_plane(tmp_path: Path)
         assert "upper.angle is 17.19 deg; say one of these" in mistake.what
 
 
+@pytest.mark.mutant("near by a joint's angle is no guess in the plane")
+@pytest.mark.parametrize(("angle", "side"), [(50.0, -1), (-50.0, 1), (310.0, 1), (-670.0, -1)])
+def test_near_a_joint_s_angle_in_the_plane(angle: float, side: int, tmp_path: Path) -> None:
+    """The knee of the nearer way, on the turn that is said."""
+    text = ELBOW.replace("0.REACH", "0.6").replace("upper: {angle: ANGLE", "knee: {angle: ANGLE")
+    text = text.replace("ANGLE", repr(angle))
+    poses = start_poses(typed(tmp_path, text))
+    assert math.copysign(1, poses["upper"][2]) == side
+    knee = 180 - math.degrees(math.acos((0.25 + 0.16 - 0.36) / 0.4))  # by the law of cosines
+    wanted = -side * knee + 360 * round((angle + side * knee) / 360)
+    turned = math.degrees(poses["lower"][2] - poses["upper"][2])
+    assert turned == pytest.approx(wanted, abs=1e-9)
+
+
+CRANK = """\
+scene:
+  points: {O: [0, 0]}
+  bodies:
+    crank: {bar: {mass: 1.0, length: 0.2}}
+    rod: {bar: {mass: 1.0, length: 0.5}}
+    block: {block: {mass: 1.0, width: 0.1, height: 0.1}}
+  joints:
+    axle: {pin: [ground.O, crank.start]}
+    big: {pin: [crank.end, rod.start]}
+    small: {pin: [rod.end, block.center]}
+    rail: {slide: [ground.O, block.center], along: [1, 0]}
+initial: {crank: {angle: 60 deg}}
+near: {rail: {shift: SHIFT}}
+allow: {block.x: 1.0e-2}
+"""
+
+
+@pytest.mark.parametrize(("shift", "side"), [(0.6, 1), (-0.3, -1)])
+def test_near_a_joint_s_shift_in_the_plane(shift: float, side: int, tmp_path: Path) -> None:
+    found = start_poses(typed(tmp_path, CRANK.replace("SHIFT", repr(shift))))["block"][0]
+    rise = 0.2 * math.sin(math.pi / 3)
+    assert found == pytest.approx(0.1 + side * math.sqrt(0.25 - rise * rise), abs=1e-12)
+
+
+def test_a_shift_in_the_middle_decides_nothing(tmp_path: Path) -> None:
+    """The two places of the block are as far from 0.1 m, above which the crank's end is."""
+    with pytest.raises(CaseError, match="can be assembled in 2 ways"):
+        start_poses(typed(tmp_path, CRANK.replace("SHIFT", "0.1")))
+
+
 def test_beside_a_dead_centre_only_what_is_open_is_named(tmp_path: Path) -> None:
     """Stretched by all but 3e-11 m: the lower bar's end is given, both angles are open."""
     text = ELBOW.replace("0.REACH", "0.89999999997").replace("ANGLE", "0.01")
