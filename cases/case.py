@@ -90,7 +90,7 @@ class Case:
     @property
     def quantities(self) -> dict[str, Quantity]:
         """Every quantity that can be bounded, by name; those of events are not among them."""
-        return table(self.scene) if self.states is None else claimable(self.scene)
+        return dict(table(self.scene) if self.states is None else claimable(self.scene))
 
     @property
     def interval(self) -> float:

@@ -5,7 +5,7 @@ counter-clockwise, SI units. What a scene is made of can be imported from here.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 from ..fields.friction import Bounds, DryFriction, Smooth, Stribeck
 from ..fields.kind import WORK, Fields
@@ -104,6 +104,10 @@ class Scene:
             for name, element in section.items():
                 if element.frame is not self.frame:
                     raise ValueError(f"{name!r} is not of the scene's frame, {self.frame.name}")
+
+    def __getstate__(self) -> dict[str, object]:
+        """The fields alone: what was made of them (`once`) is made anew."""
+        return {of.name: getattr(self, of.name) for of in fields(self)}
 
     def driven(self) -> Mapping[str, Fields]:
         """By joint, what prescribed rates exert: `hinge` → `torque`."""

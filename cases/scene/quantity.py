@@ -6,11 +6,13 @@ At an event it is written behind the event's name: `lands.crank.angle`, `lands.c
 
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Literal
 
 from ..fields.event import Event
 from ..fields.kind import Fields, Kind
 from . import Scene
+from .once import once
 
 _ENERGY: Fields = {
     "kinetic": ("J", "energy"),
@@ -47,17 +49,9 @@ class Quantity:
     kind: Kind  # what it is told by: a place, a velocity, a force, …
 
 
-_MADE: list[tuple[Scene, dict[str, Quantity]]] = []  # the last: a scene is asked many times
-
-
-def table(scene: Scene) -> dict[str, Quantity]:
+@once
+def table(scene: Scene) -> MappingProxyType[str, Quantity]:
     """Every quantity of the scene by name, in the scene's order."""
-    if not _MADE or _MADE[0][0] is not scene:
-        _MADE[:] = [(scene, _made(scene))]
-    return dict(_MADE[0][1])
-
-
-def _made(scene: Scene) -> dict[str, Quantity]:
     parts: dict[str, Fields] = {}
     for element in scene.elements():
         parts |= element.quantities()
@@ -65,7 +59,7 @@ def _made(scene: Scene) -> dict[str, Quantity]:
         for part, fields in more.items():
             parts[part] = {**parts.get(part, {}), **fields}
     momentum = _MOMENTUM if scene.frame.dimension == 2 else _SPATIAL_MOMENTUM
-    return _named(parts | {"energy": _ENERGY, "momentum": momentum})
+    return MappingProxyType(_named(parts | {"energy": _ENERGY, "momentum": momentum}))
 
 
 def event_quantities(events: Iterable[str]) -> dict[str, Quantity]:

@@ -1,5 +1,6 @@
 """Derived quantities against formulas of this file's own: complex positions, finite differences."""
 
+import pickle
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -17,8 +18,8 @@ from textmech.cases.scene import (
     GroundPoint,
     Scene,
     Spring,
+    once,
     planar_joint,
-    quantity,
     shape,
 )
 from textmech.cases.scene.observe import observe
@@ -247,13 +248,14 @@ def own_tables() -> bool:
 
 
 def test_a_table_is_of_the_scene_that_is_asked() -> None:
-    table(SCENE).clear()  # whoever changes one changes his own
-    assert table(SCENE)
+    with pytest.raises(TypeError):  # nobody changes what others are given
+        table(SCENE)["bar.angle"] = table(SCENE)["bar.x"]  # type: ignore[index]
     assert own_tables()
+    assert not vars(pickle.loads(pickle.dumps(SCENE))).keys() - vars(replace(SCENE)).keys()
 
 
 @pytest.mark.mutant("the quantities of the scene that was asked before")
 def test_a_table_of_another_scene_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    before = table(SCENE)
-    monkeypatch.setattr(quantity, "_made", lambda scene: before)
+    shared = dict[str, object]()
+    monkeypatch.setattr(once, "vars", lambda scene: shared, raising=False)
     assert not own_tables()

@@ -17,6 +17,7 @@ from typing import Any
 from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector
 from ....cases.scene.frame import PLANE
 from ....cases.scene.joint import Freedom
+from ....cases.scene.once import once
 from ....cases.scene.rotation import Vector3
 from ...engine import Start
 from .number_text import lifted
@@ -196,21 +197,14 @@ def local(scene: Scene, anchor: Anchor) -> Vector3:
     return (0.0, 0.0, 0.0) if point.driven else lifted(point.at)
 
 
-_LAST: list[tuple[Scene, Tree]] = []  # one at most: a run asks for it twenty times
-
-
+@once
 def spanning_tree(scene: Scene) -> Tree:
     """The tree over the joints: what closes a loop best comes last, else in the scene's order.
 
     What is driven or rubs comes before what else is like it, and in space what a force acts about:
     only in a joint of the tree they can be.
     """
-    for known, tree in _LAST:
-        if known is scene:
-            return tree
-    tree = spanned(scene, sorted(scene.joints.values(), key=lambda joint: _closes(scene, joint)))
-    _LAST[:] = [(scene, tree)]
-    return tree
+    return spanned(scene, sorted(scene.joints.values(), key=lambda joint: _closes(scene, joint)))
 
 
 def _closes(scene: Scene, joint: Joint) -> tuple[bool, int]:
