@@ -2,7 +2,7 @@
 
 pymunk knows one bound of friction. The law sets it to the mean force of the coming step, and
 pymunk holds with it, or brakes. The law is known beforehand on a part that nothing else joins or
-touches; anywhere else friction stays pymunk's own.
+touches; where that is not so of one, all friction of the scene stays pymunk's own.
 """
 
 import math
