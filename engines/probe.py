@@ -9,6 +9,7 @@ from math import isfinite
 from multiprocessing.connection import Connection
 from typing import Any
 
+from ..cases.fields.text import no_formula
 from .quiet import quiet, silence
 
 SECONDS = 60.0  # of an import: the slowest package that anybody uses takes ten
@@ -46,6 +47,8 @@ def unsound(engine: Any, name: str, setting: str) -> str:
     version, step = engine.version, engine.own_step
     if not (isinstance(version, str) and version.isprintable() and 0 < len(version) <= LETTERS):
         return f"its version should be a short text, is {_short(version)}"
+    if formula := no_formula(version):
+        return f"its version {formula}"
     if step is None:
         return ""
     number = isinstance(step, float | int) and not isinstance(step, bool)

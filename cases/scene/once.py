@@ -1,4 +1,4 @@
-"""What many ask of a scene is made once, kept with the scene, and goes with it."""
+"""Remembers what many ask of a scene: it is made once, kept with the scene, and goes with it."""
 
 from collections.abc import Callable
 from functools import wraps

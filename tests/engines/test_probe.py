@@ -55,6 +55,7 @@ MADE = {
     "version: str = 'v' * 1000": "its version should be a short text, is 'vvv",
     "version: str = 'a\\nb'": "its version should be a short text",
     "version: str = ''": "its version should be a short text",
+    "version: str = '=cmd|x'": "its version begins with '=', as a formula of a spreadsheet does",
     "name: str = '../x'": "its name should be 'strange', is '../x'",
     "name: object = None": "its name should be 'strange', is None",
     "own_step: object = 0.0": "its own_step should be a time",

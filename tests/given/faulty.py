@@ -108,6 +108,7 @@ ANSWERS: dict[str, Callable[[Trajectory], Any]] = {
     "lists": lambda found: rows(found, lambda row: row.tolist()),
     "text": lambda found: rows(found, lambda row: row.astype(str)),
     "objects": lambda found: rows(found, lambda row: row.astype(object)),
+    "masked numbers": lambda found: rows(found, lambda row: np.ma.array(row, mask=row > 0.5)),
     "complex numbers": lambda found: rows(found, lambda row: row.astype(complex)),
     "a sample less": lambda found: rows(found, lambda row: row[1:]),
     "other times": lambda found: replace(found, times=found.times * 1.001),

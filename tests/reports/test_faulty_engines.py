@@ -14,6 +14,7 @@ from textmech.reports.data.row import AGREES, DIVERGED, FAILS, Comparison
 from textmech.reports.output import write
 from textmech.reports.show import document
 from textmech.reports.system import limit
+from textmech.reports.system.table_text import spelled
 
 LONGEST = 400  # letters of what a row says
 
@@ -66,3 +67,10 @@ def test_a_fault_costs_the_engines_own_rows(
         assert sum(line[0] == "moving" for line in csv.reader(file)) == len(report.comparisons)
     found = document.of_run(report, [], cures={}, written=None, exit_code=1)
     assert json.loads(json.dumps(found))["exit_code"] == 1
+
+
+@pytest.mark.mutant("a refusal in words that a spreadsheet computes")
+@pytest.mark.parametrize("words", ["=1+1", "+1", "@sum", "-cmd|x", "=" * 1000])
+def test_what_a_spreadsheet_would_compute_is_in_quotes(words: str) -> None:
+    assert spelled(words)[0] == "'"
+    assert spelled(f"no {words[:9]}") == f"no {words[:9]}"

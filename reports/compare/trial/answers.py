@@ -79,7 +79,8 @@ def _states(what: str, found: Trajectory, scene: Scene) -> None:
 
 
 def _rows(what: str, rows: Any, shape: tuple[int, ...]) -> None:
-    if not isinstance(rows, np.ndarray) or rows.dtype.kind not in "fiu":
+    hides = isinstance(rows, np.ma.MaskedArray)  # numbers that it does not vouch for
+    if not isinstance(rows, np.ndarray) or rows.dtype.kind not in "fiu" or hides:
         raise BadAnswer(f"{what} should be an array of numbers, is {_kind(rows)}")
     if rows.shape != shape:
         raise BadAnswer(f"{what} should have the shape {shape}, has {rows.shape}")
@@ -102,6 +103,6 @@ def read_back(found: Any, known: Mapping[str, float]) -> dict[str, float]:
 
 
 def _kind(value: Any) -> str:
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray) and not isinstance(value, np.ma.MaskedArray):
         return f"an array of {value.dtype}"
     return f"{spelled(repr(value), 50)}" if value is None else f"a {type(value).__name__}"
