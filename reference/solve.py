@@ -23,7 +23,7 @@ from .assumptions import check_premises, check_start, pressed
 from .certificate.agreement import Check
 from .certificate.certify import certify
 from .certificate.errors import beyond
-from .coverage import look, noting
+from .coverage import noting
 from .determined import check_determined
 from .integrators.budget import apart
 from .integrators.now import begun, doing
@@ -103,7 +103,6 @@ def _solved(case: Case) -> Island:
         answer = built
         if system is not generated:
             answer = Answer(system, followed, beside, asked, case.scene)
-        look()
         corners = [t for t in system.corners if 0.0 < t < case.duration]
         switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
         motion = answer.trajectory(case.times)

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from ...cases.trajectory import VX, Trajectory, X
+from ..coverage import equation
 from ..laws.friction import Dry, boxcar
 from ..motion.bodies import Answer
 from ..motion.follow import follow
@@ -78,11 +79,13 @@ class Karnopp(System):
         """At rest at x = 0, where it must stick."""
         return "stuck", np.zeros(1), np.zeros(1)
 
+    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.91) `slips` and `stops`."""
         return guards(self.pull, self.dry, mode, Delta=self.Delta, keeps_v=self.literal)
 
 
+@equation
 def boxcars(
     m: float,
     F_a: Callable[[float, float], float],
@@ -106,6 +109,7 @@ def boxcars(
 # No modes and no guards: at every step the friction is what the law says at that v and F_a.
 
 
+@equation
 def stepped(
     m: float,
     F_a: Callable[[float, float], float],

@@ -15,7 +15,6 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.trajectory import Trajectory
-from ..coverage import look
 from ..integrators.implicit import Radau
 from ..integrators.march import Method, Slope
 from ..integrators.now import doing
@@ -61,7 +60,6 @@ def certify(
     written: the answer, and `motion` its bodies; built: the generated mechanism's, and `marched`
     its bodies at every step. They are one where there is no hand-written system.
     """
-    look()
     times, system, followed = case.times, written.system, written.followed
     places = [states[:, case.scene.frame.place] for states in marched.states.values()]
     far = worst(np.abs(each).max() for each in places)
@@ -176,7 +174,6 @@ def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
 
 def _closed_form(system: System, times: Array) -> Array | None:
     """y (N, 2n) by known functions, or None."""
-    look()
     rows = [system.closed_form(t) for t in times.tolist()]
     if any(row is None for row in rows):
         return None
@@ -185,7 +182,6 @@ def _closed_form(system: System, times: Array) -> Array | None:
 
 def _drift(system: System, followed: Followed, bound: float) -> Iterator[Check]:
     """Residual of (2.14) at the steps of the march, where there is one, to the coordinates."""
-    look()
     steps = [(t, followed.phases[k], y) for t, k, y in followed.march]
     found = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in steps]
     if any(len(residual) for residual in found):
@@ -200,7 +196,6 @@ def _impossible(system: System, followed: Followed) -> int:
 
     Where a mode ends it is at its bound: what begins there is asked.
     """
-    look()
     march = followed.march
     ends = [one[1] != other[1] for one, other in pairwise(march)]
     rows = [

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...cases.trajectory import Trajectory
-from ..coverage import look
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
 from ..formalisms.lagrange import constraint_rows, derivative, rate_matrix
@@ -148,7 +147,6 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     Differences are relative to the largest term: of the accelerations and powers themselves, or of
     those that each force alone would give, since at rest the forces cancel but for rounding.
     """
-    look()
     bound = len(mode.f_a(0.0, mode.parted(y[0])[0])) > 0
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
     drifted: list[float] = []  # the power of what holds, on what a rate is off: judged as drift
@@ -211,7 +209,6 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
         a = mode.accelerations(t, q, v)
         size = worst([*np.abs(a), scale.alone(mode, t, q, v), least]) or 1.0
         for name, accelerations in ELIMINATED.items():
-            look()
             if (other := accelerations(mode, t, q, v)) is not None:
                 found.setdefault(name, []).append(worst(np.abs(other - a)) / size)
     for name, apart in found.items():

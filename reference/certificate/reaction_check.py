@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..coverage import look
 from ..formalisms.derivative import along
 from ..mechanism.modes.mechanism import Mechanism
 from ..mechanism.modes.mode import Multibody
@@ -30,7 +29,6 @@ def reaction_checks(
 
     With another count of phases there is nothing to compare: the events say so.
     """
-    look()
     followed, phases = written.followed, built.followed.phases
     if len(phases) != len(followed.phases):
         return

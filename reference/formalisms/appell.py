@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Mode, Vector
 from .dependent import Dependent, dependent
 from .derivative import along
 from .wrench import gyroscopic, velocity
 
 
+@equation
 def accelerations(
     system: Mode, t: float, q: Array, v: Array, among: Sequence[int] | None = None
 ) -> Array | None:
@@ -39,6 +41,7 @@ def accelerations(
     return by.changed(t, q, v, q_ddot)
 
 
+@equation
 def energy(system: Mode, rates: Vector, gyro: Array) -> Any:
     """(2.77) S = ½ ∫ r̈² dm = Σ ½ m r̈_c² + ½ ω̇ · J ω̇ + ω̇ · (ω × J ω), and what has no q̈ [W/s].
 
@@ -53,12 +56,14 @@ def energy(system: Mode, rates: Vector, gyro: Array) -> Any:
     return S
 
 
+@equation
 def body_accelerations(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
     """(2.73) r̈_c and ω̇ of every body (N, 3) or (N, 6) of v̇ = a, by differentiating `poses`."""
     direction = (1.0, system.rates(t, q, v), a)
     return along(_velocities(system), (t, q, v), direction)
 
 
+@equation
 def free_accelerations(by: Dependent, t: float, q: Array, v: Array) -> Array:
     """(2.74) ∂r̈/∂q̈^{a1} = g_{a1} (N, ·, k): how the bodies go along each independent rate."""
     ways, still = by.ways(t, q).T, 0.0 * q

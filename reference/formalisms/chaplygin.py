@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Mode
 from .dependent import dependent
 from .lagrange import derivative, momentum
@@ -12,6 +13,7 @@ from .voronets import slopes_of
 ROUNDING = 1e-14  # of the largest derivative: what is below it comes from terms that cancel
 
 
+@equation
 def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
     """(2.67) d/dt ∂T'/∂q̇ − ∂T'/∂q = Π + ∂T/∂q̇^{a2} (∂α_{a1}/∂q^d − ∂α_d/∂q^{a1}) q̇^d, of a1.
 

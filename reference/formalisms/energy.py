@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Mode
 from .derivative import along
 from .lagrange import derivative, gradient, momentum, multipliers
@@ -15,6 +16,7 @@ def power_balance(system: Mode, t: float, q: Array, v: Array) -> float:
     return float(np.sum(power_terms(system, t, q, v)))
 
 
+@equation
 def power_terms(system: Mode, t: float, q: Array, v: Array) -> Array:
     """(2.51) d/dt (q̇ᵃ ∂T/∂q̇ᵃ − T + U) − (Q_a vᵃ + λ_b gᵇ + ∂(U + V − T)/∂t) [W], by terms.
 

@@ -13,12 +13,14 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Mode, Vector
 from .derivative import along
 
 MOST = 1e6  # times the energy of what is driven: T is quadratic, so large rates cost no digits
 
 
+@equation
 def multipliers(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, Array]:
     """(2.60) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a + λ_b f_aᵇ with f_a v = g: v̇ (n,), λ (r,).
 
@@ -33,6 +35,7 @@ def multipliers(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, Arra
     return solution[:n], solution[n:]
 
 
+@equation
 def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array:
     """(2.44) d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ = Q_a: v̇ (n,). Raises ValueError if there are constraints."""
     if len(system.f_a(t, q)):
@@ -137,6 +140,7 @@ def of_potential(system: Mode, t: float, q: Array, q_dot: Array) -> Array:
     return np.zeros(len(q))
 
 
+@equation
 def _from_potential(system: Mode, t: float, q: Array, q_dot: Array) -> Array:
     """(2.48) Q_a = d/dt ∂V/∂q̇ᵃ − ∂V/∂qᵃ (m,): V is linear in q̇, so that no q̈ is in it."""
     change = derivative(lambda t, q: slope(system.V, t, q, q_dot), (t, q), (1.0, q_dot))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Mode, Vector
 from .derivative import along
 from .lagrange import gradient, inertia, rate_matrix, slope
@@ -26,6 +27,7 @@ def left_side(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
     return change - gradient(lambda q: L(t, q, q_dot), q)
 
 
+@equation
 def unbalanced(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
     """(2.51), (2.52) d/dt ∂L/∂q̇ᵃ − ∂L/∂qᵃ = −∂D/∂q̇ᵃ + Q_a⁴, or 0: by what v̇ = a misses it (n,).
 

@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Cut, Mode
 from .derivative import along
 from .lagrange import constraint_acceleration, constraint_rows
 from .wrench import gyroscopic, inertial, none, rows, velocity, wrench
 
 
+@equation
 def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> tuple[float, dict[str, float]]:
     """(2.23) m r̈_c = F, (2.27) J ω̇ = M_c at the accelerations a (n,), reactions by least squares.
 
@@ -34,6 +36,7 @@ def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> tuple[float
     return float(abs(unbalanced).max() / (terms or 1.0)), reactions_by_name(system, t, q, unknown)
 
 
+@equation
 def accelerations(system: Mode, t: float, q: Array, v: Array) -> tuple[Array, dict[str, float]]:
     """(2.23) m r̈_c = F, (2.27) J ω̇ = M_c, solved for v̇ (n,) and the reactions together.
 

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Array, Mode
 from .dependent import Dependent, dependent
 from .lagrange import derivative, momentum
 
 
+@equation
 def accelerations(
     system: Mode, t: float, q: Array, v: Array, among: Sequence[int] | None = None
 ) -> Array | None:
@@ -36,6 +38,7 @@ def accelerations(
     return by.changed(t, q, v, q_ddot)
 
 
+@equation
 def beta(by: Dependent, alpha: Array, bends: Array) -> Array:
     """(2.65) β^{a2}_{a1 d} = ∂α_{a1}/∂q^d + ∂α_{a1}/∂q^c α^c_d − ∂α_d/∂q^{a1} − ∂α_d/∂q^c α^c_{a1}.
 

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from ...cases.scene.frame import PLANE, SPACE
+from ..coverage import equation
 from ..laws.rotation import axes
 from ..system import Array, Mass, Mode, Pose
 
 
+@equation
 def wrench(
     at: tuple[float, ...], pose: Pose, force: tuple[float, ...], moment: float | tuple[float, ...]
 ) -> Array:
@@ -25,6 +27,7 @@ def wrench(
     return np.concatenate([force, axes(pose[SPACE.attitude]) @ M_c])
 
 
+@equation
 def inertial(mass: Mass, rate: Array) -> Array:
     """(2.23) m r̈_c and (2.27) J ω̇ of the accelerations (3,) or (6,) of a body."""
     d = PLANE.dimension if len(rate) == PLANE.spin.stop - PLANE.velocity.start else SPACE.dimension
@@ -33,6 +36,7 @@ def inertial(mass: Mass, rate: Array) -> Array:
     return np.concatenate([mass.m * rate[:d], np.dot(rate[d:], mass.J)])
 
 
+@equation
 def gyroscopic(mass: Mass, pose: Pose) -> Array:
     """(2.33) ω × (J ω), the moment that turns J ω with the body; none in the plane."""
     rows = none(pose)

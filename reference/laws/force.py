@@ -6,14 +6,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..coverage import equation
 from ..system import Array
 
 
+@equation
 def weight(m: float, g: ArrayLike) -> Array:
     """(2.81) F = m g [N]: g (2,) or (3,) the acceleration of gravity as a vector."""
     return m * np.asarray(g, dtype=np.float64)
 
 
+@equation
 def spring(c: float, l0: float, d: ArrayLike) -> Array:
     """(2.82) F = −c (λ − λ₀) along the spring [N]: the force on the first end: (2,), in space (3,).
 
@@ -27,22 +30,26 @@ def spring(c: float, l0: float, d: ArrayLike) -> Array:
     return np.array(entries) * (c * (l - l0) / l)
 
 
+@equation
 def torsion(c: float, phi0: float, phi: float) -> float:
     """(2.45) M = −c (φ − φ₀) [N m] on the second part of a joint, φ its angle against the first."""
     return -c * (phi - phi0)
 
 
+@equation
 def torsion_damper(d: float, phi_dot: float) -> float:
     """(2.47) M = −d φ̇ [N m] on the second part of a joint."""
     return -d * phi_dot
 
 
+@equation
 def magnetic(e: float, B: float, v: ArrayLike) -> Array:
     """(2.49) F = e v × B [N], (2,): of a charge +e in B e_z, to its right for e B > 0."""
     x_dot, y_dot = np.asarray(v, dtype=np.float64).tolist()
     return np.array([e * B * y_dot, -e * B * x_dot])
 
 
+@equation
 def damper(d: float, r: ArrayLike, r_dot: ArrayLike) -> Array:
     """(2.47) F = −d λ̇ along the damper [N]: the force on the first end: (2,), in space (3,).
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..coverage import equation
 from ..system import Array
 
 Interval = Callable[[float, float, Any], Any]  # h(a, b, x): 1 between a and b, else 0
@@ -37,17 +38,20 @@ class Dry:
         if self.F_minus > self.Fs_minus or self.F_plus > self.Fs_plus:
             raise ValueError(f"kinetic friction must not be above static friction: {self}")
 
+    @equation
     def sticks(self, F_a: float) -> bool:
         """(2.89) −F_s₋ ≤ F_a ≤ F_s₊: the band is closed."""
         return -self.Fs_minus <= F_a <= self.Fs_plus
 
 
+@equation
 def viscous(F: Callable[[Array], float], v: ArrayLike) -> Array:
     """(2.83), (2.84) F_fr = −F(v) v/|v|, and 0 at v = 0, (k,) [N]; v (k,)."""
     v = np.asarray(v, dtype=np.float64)
     return -F(v) * v / math.sqrt(v @ v) if v.any() else np.zeros_like(v)
 
 
+@equation
 def power_law(d: float, alpha: float, v: float) -> float:
     """(2.85), (2.86) F_fr = −d |v|^α sign(v), α > 0 [N]; with α < 1 it stops in finite time."""
     if not alpha > 0.0:
@@ -55,6 +59,7 @@ def power_law(d: float, alpha: float, v: float) -> float:
     return -d * math.copysign(abs(v) ** alpha, v)
 
 
+@equation
 def coulomb(mu: float, F_N: float, v: float) -> float:
     """(2.87) F_fr = −μ F_N sign(v) [N], v ≠ 0: at v = 0 it says nothing, and that is refused."""
     if v == 0.0:
@@ -62,11 +67,13 @@ def coulomb(mu: float, F_N: float, v: float) -> float:
     return -mu * F_N * math.copysign(1.0, v)
 
 
+@equation
 def stiction(dry: Dry, v: float, F_a: float) -> float:
     """(2.89) F₋, v < 0; −F₊, v > 0; v = 0: −F_a if it sticks, F₋ (F_a < −F_s₋), −F₊ else [N]."""
     return velocity_dependent(lambda _: dry.F_minus, lambda _: dry.F_plus, dry, v, F_a)
 
 
+@equation
 def velocity_dependent(
     F_minus: Callable[[float], float],
     F_plus: Callable[[float], float],
@@ -82,6 +89,7 @@ def velocity_dependent(
     return dry.F_minus if F_a < 0.0 else -dry.F_plus
 
 
+@equation
 def stribeck(F: float, F_s: float, v_s: float, v: float) -> float:
     """(2.90) F(v) = F + (F_s − F) e^{−|v|/v_s} [N]: fig 2.25 as Tustin (1947) has it.
 
@@ -90,26 +98,31 @@ def stribeck(F: float, F_s: float, v_s: float, v: float) -> float:
     return F + (F_s - F) * math.exp(-abs(v) / v_s)
 
 
+@equation
 def karnopp(dry: Dry, Delta: float, v: float, F_a: float) -> float:
     """(2.91) (2.89) with its branch of v = 0 for |v| ≤ Δ [N]: a body that sticks keeps its v."""
     return stiction(dry, 0.0 if abs(v) <= Delta else v, F_a)
 
 
+@equation
 def h_interval(a: float, b: float, x: float) -> float:
     """(2.92) h = 1, a ≤ x < b; 0 else."""
     return 1.0 if a <= x < b else 0.0
 
 
+@equation
 def h_signs(a: float, b: float, x: float) -> float:
     """(2.93) h = ½ (sign(x − a) + sign(b − x)): ½ at a and at b."""
     return float(np.sign(x - a) + np.sign(b - x)) / 2.0
 
 
+@equation
 def H(A: float) -> Interval:
     """(2.96) H(a, b, x) = ½ (tanh A(x − a) + tanh A(b − x))."""
     return lambda a, b, x: (np.tanh(A * (x - a)) + np.tanh(A * (b - x))) / 2.0
 
 
+@equation
 def boxcar(dry: Dry, Delta: float, v: Any, F_a: Any, *, h: Interval = h_signs) -> Any:
     """(2.94) F_fr = −F_a h(−Δ,Δ,v) h(−F_s₋,F_s₊,F_a) + F₋{…} − F₊{…} [N]."""
     inside = h(-Delta, Delta, v)
@@ -119,6 +132,7 @@ def boxcar(dry: Dry, Delta: float, v: Any, F_a: Any, *, h: Interval = h_signs) -
     return -F_a * stuck + dry.F_minus * backward - dry.F_plus * forward
 
 
+@equation
 def smooth(dry: Dry, Delta: float, A: float, v: Any, F_a: Any) -> Any:
     """(2.95) is (2.94) with H (2.96) for h [N]; inside the band it cancels F_a but never rests."""
     return boxcar(dry, Delta, v, F_a, h=H(A))

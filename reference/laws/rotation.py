@@ -8,35 +8,42 @@ from typing import Any
 
 import numpy as np
 
+from ..coverage import equation
 from ..system import Vector
 
 
+@equation
 def point(r_Omega: Vector, E: Vector, x: Vector) -> Vector:
     """(2.1), (2.2) r = r_Ω + x_i E_i, (3,) [m]: x (3,) in body axes, all else in ground axes."""
     return r_Omega + x @ E
 
 
+@equation
 def turning(E: Vector, E_dot: Vector) -> Vector:
     """(2.3) Ė_i = ω_ij E_j with ω_ij = Ė_ik E_jk, (3, 3) [rad/s], skew since E⁻¹ = Eᵀ."""
     return E_dot @ E.T
 
 
+@equation
 def angular_velocity(E: Vector, E_dot: Vector) -> Vector:
     """(2.4) ω = ω₂₃ E₁ + ω₃₁ E₂ + ω₁₂ E₃, (3,) [rad/s]: its components in body axes."""
     omega = turning(E, E_dot)
     return np.array([omega[1, 2], omega[2, 0], omega[0, 1]])
 
 
+@equation
 def axis_rates(E: Vector, omega: Vector) -> Vector:
     """(2.5) Ė_i = ω × E_i, (3, 3) [rad/s], a row each: ω (3,) in body axes."""
     return np.cross(omega @ E, E)
 
 
+@equation
 def velocity(v_Omega: Vector, omega: Vector, x: Vector) -> Vector:
     """(2.6) v = ṙ_Ω + ω × x, (3,) [m/s]: all three in the same axes."""
     return v_Omega + np.cross(omega, x)
 
 
+@equation
 def acceleration(a_Omega: Vector, omega_dot: Vector, omega: Vector, x: Vector) -> Vector:
     """(2.7) a = r̈_Ω + ω̇ × x + ω × (ω × x), (3,) [m/s²]: all in the same axes."""
     return a_Omega + np.cross(omega_dot, x) + np.cross(omega, np.cross(omega, x))

@@ -14,6 +14,7 @@ from ...cases.scene.counting import THREE, far
 from ...cases.scene.frame import SPACE
 from ...cases.scene.observe import motion_of
 from ...cases.trajectory import Trajectory
+from ..coverage import equation
 from ..formalisms.derivative import along
 from ..system import Array, Mode, Pose, System
 from .follow import Followed, Kept
@@ -240,6 +241,7 @@ class Answer:
         )
 
 
+@equation
 def accelerations(mode: Mode, t: float, q: Array, v: Array) -> dict[str, float]:
     """(2.22) ẍ, ÿ and φ̈ of each body, by quantity: the change of the velocities in its pose."""
 

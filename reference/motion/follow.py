@@ -11,7 +11,6 @@ import numpy as np
 from numpy.linalg import LinAlgError
 from numpy.typing import NDArray
 
-from ..coverage import look
 from ..integrators.budget import motion, spend
 from ..integrators.explicit import DormandPrince
 from ..integrators.implicit import Radau
@@ -150,7 +149,6 @@ class _Walk:
     passing: set[str] = field(default_factory=set[str])  # those after whose last a motion goes on
 
     def __post_init__(self) -> None:
-        look()
         mode, q, v = self.system.start()
         self.t, self.now = float(self.times[0]), np.concatenate([q, v]).astype(np.float64)
         # An event on the last sample may be found just behind it.
@@ -186,7 +184,6 @@ class _Walk:
         f, bare = here(watched), here(slope(mode))
         method, probe = self.by(mode, f, len(self.now)), self.by(mode, bare, len(self.now))
         early, begins, probed = Early(bare, self.now, ends.tolist()), True, 0
-        look()
         for step in march(method, ends, self.now, anew=bool(self.changes) and not mode.stiff):
             self.steps += 1
             state = inside(step, probe)
@@ -261,7 +258,6 @@ class _Walk:
             self.march.append((t, len(self.changes), y))
 
     def _switch(self, guard: Guard, i: int, t: float, before: Array) -> None:
-        look()
         self._stepped(t, before)
         ended = self.phases[-1]
         parted = self.system.modes[ended].parted(before)

@@ -17,7 +17,7 @@ from ...cases.scene.states import coordinates
 from ...cases.trajectory import Trajectory
 from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import beyond, errors
-from ..coverage import look
+from ..coverage import equation
 from ..integrators.now import doing, reached
 from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..stated import Stated
@@ -100,7 +100,6 @@ def _trajectory(
     """The poses of a mode, and what is told for q, q̇ and q̈."""
     states: dict[str, list[object]] = {}
     told: dict[str, list[object]] = {}
-    look()
     for q, v, a in rows(case, mode):
         for name, pose in mode.poses(0.0, q, v).items():
             states.setdefault(name, []).append(pose)
@@ -138,11 +137,9 @@ def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
     if case.scene.frame is PLANE:
         return
     assert case.states is not None
-    look()
     yield Check("joints hold (2.10), (2.15)", unheld(mode, case.scene, rows(case, mode)), LAW)
     read = misread(case.scene, built, case.states.drawn(case.scene))
     yield Check("coordinates read back", read, LAW)
-    look()
     each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
     size = worst(term for row in each for _, term in row.values())
     apart = (
@@ -170,6 +167,7 @@ Row = tuple[Array, Array, Array]
 THREE = 3  # turns, of which other angles make the same attitude
 
 
+@equation
 def unheld(mode: Stated, scene: Scene, rows: Iterator[Row]) -> float:
     """(2.10), (2.15) The largest of f = 0, f_a v = 0 and f_a v̇ = γ, each of its largest term."""
     base = SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
@@ -217,6 +215,7 @@ class FreeBodies(Stated):
             for body in scene.bodies.values()
         }
 
+    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_k, E_k: a free body's coordinates are its own parameters."""
         at = {name: (q[i], v[i]) for i, name in enumerate(self.coordinates)}
@@ -226,6 +225,7 @@ class FreeBodies(Stated):
             found[name] = (*(place for place, _ in both), *(rate for _, rate in both))
         return found
 
+    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = Σ ½ m ṙ_c² + ½ J₃₃ ω² [J]."""
         energy: Any = 0.0
@@ -234,6 +234,7 @@ class FreeBodies(Stated):
             energy = energy + (mass.m * (vx**2 + vy**2) + (mass.J or 0.0) * omega**2) / 2
         return energy
 
+    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c [J]."""
         gx, gy = self.scene.gravity

@@ -10,6 +10,7 @@ import numpy as np
 from ...cases.scene import Scene
 from ...cases.scene.frame import SPACE
 from ...cases.scene.states import MASS_MATRIX
+from ..coverage import equation
 from ..formalisms import lagrange
 from ..formalisms.derivative import along
 from ..laws.rotation import axes
@@ -46,6 +47,7 @@ def derived(
     return found | slowed(scene, q, v)
 
 
+@equation
 def slowed(scene: Scene, q: Array, v: Array) -> dict[str, float]:
     """(2.46) F = −∂D/∂ṙ [N] of what slows a point, where q is x, y and angle of each body.
 
@@ -79,6 +81,7 @@ def moving(mode: Stated, q: Array, v: Array, a: Array) -> dict[str, Array]:
     return dict(zip(mode.poses(0.0, q, v), along(flat, (q, v), (v, a)), strict=True))
 
 
+@equation
 def spatial(pose: Pose, x: Array) -> tuple[Any, Any]:
     """(2.6) ṙ of a point x, and ω, in ground axes."""
     E = axes(pose[SPACE.attitude])
@@ -86,6 +89,7 @@ def spatial(pose: Pose, x: Array) -> tuple[Any, Any]:
     return np.array(pose[SPACE.velocity]) + np.cross(omega, x @ E), omega
 
 
+@equation
 def planar(pose: Pose, x: Array) -> tuple[Any, Any]:
     """(2.6) ṙ of a point x, and ω, as vectors of space."""
     cos, sin = np.cos(pose[2]), np.sin(pose[2])
@@ -93,6 +97,7 @@ def planar(pose: Pose, x: Array) -> tuple[Any, Any]:
     return np.array([pose[3] - pose[5] * dy, pose[4] + pose[5] * dx, 0.0 * dx]), pose[5]
 
 
+@equation
 def resisting(mode: Stated, scene: Scene, q: Array, v: Array, a: Array) -> dict[str, Any]:
     """(2.44) M_ab (n, n), and d/dt ∂T/∂q̇ᵃ − ∂T/∂qᵃ + ∂U/∂qᵃ (n,) by the names of joints."""
     M = lagrange.mass_matrix(mode, 0.0, q)
@@ -108,6 +113,7 @@ def efforts(scene: Scene) -> Iterator[tuple[str, str]]:
             yield f"{joint.name}.{freedom.name}", f"{joint.name}.{freedom.effort}"
 
 
+@equation
 def by_virtual_work(
     mode: Stated, g: Any, q: Array, v: Array, a: Array
 ) -> Mapping[str, tuple[float, float]]:

@@ -1,23 +1,17 @@
 """Which equations count as used: those whose function runs."""
 
-import cProfile
-import sys
+import ast
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 
-import numpy as np
 import pytest
 from given import scenes
-from given.watched import Oscillator, Watched
 
-from textmech.reference import coverage
-from textmech.reference.coverage import CALLS, equations, look, noting
+from textmech.reference.coverage import equations, noting
 from textmech.reference.laws import momentum
 from textmech.reference.laws.force import spring, weight
-from textmech.reference.motion import follow as motion
-from textmech.reference.motion.follow import follow
-from textmech.reference.system import Array, Mode
+
+REFERENCE = Path(__file__).parents[2] / "reference"
 
 
 @pytest.mark.parametrize(
@@ -63,84 +57,59 @@ def test_what_is_not_of_the_reference_does_not_count() -> None:
     assert noted(elsewhere) == set()
 
 
-def test_another_profiler_is_put_back_even_after_an_error() -> None:
-    before = sys.getprofile()
+def test_an_error_ends_it_too() -> None:
     with pytest.raises(ZeroDivisionError):
         noted(lambda: 1 / 0)
-    assert sys.getprofile() is before
+    assert noted(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
 
 
-def test_a_profile_of_the_whole_goes_on_after_it() -> None:
-    """cProfile's is no function that `sys.setprofile` would take."""
-    profile = cProfile.Profile()
-    profile.enable()
-    try:
-        assert noted(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
-        equations("(2.44) seen by the profile")
-    finally:
-        profile.disable()
-    seen = {getattr(entry.code, "co_name", "") for entry in profile.getstats()}
-    assert "equations" in seen
-
-
-def test_a_watch_ends_and_starts_anew() -> None:
-    def long() -> None:
-        for _ in range(CALLS + 1):
+def test_what_runs_late_is_noted() -> None:
+    def late() -> None:
+        for _ in range(100_000):
             equations(None)
         spring(1.0, 0.5, (1.0, 0.0))
 
-    def looking() -> None:
-        long()
-        look()
-        spring(1.0, 0.5, (1.0, 0.0))
-
-    assert noted(long) == set()
-    assert noted(looking) == {"2.82"}
-
-
-class Falls(Mode):
-    """Pulled by a spring, which no phase before it is."""
-
-    coordinates = ("x",)
-
-    def accelerations(self, t: float, q: Array, v: Array) -> Array:
-        return -np.array(spring(1.0, 0.5, (float(q[0]) + 9.0, 0.0))[:1])
-
-
-def late() -> None:
-    swing = Watched([(None, lambda t, x, v: x)], Oscillator(), "off")
-    swing.modes = {**swing.modes, "off": Falls()}
-    follow(swing, np.array([0.0, 1.5, 1.6]))
-
-
-def test_what_begins_late_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A phase after the end of the watch; without `look` its equations would be lost."""
-    monkeypatch.setattr(coverage, "CALLS", 300)
     assert noted(late) == {"2.82"}
-    monkeypatch.setattr(motion, "look", lambda: None)
-    assert noted(late) == set()
 
 
-def test_looking_alone_does_nothing() -> None:
-    before = sys.getprofile()
-    look()
-    assert sys.getprofile() is before
-
-
-def test_of_two_watches_the_inner_one_looks() -> None:
-    """And the outer one goes on when the inner one ends."""
+def test_what_runs_in_an_inner_one_is_noted_in_both() -> None:
     inner: set[str] = set()
 
     def outer() -> None:
-        def within() -> None:
-            look()
-            spring(1.0, 0.5, (1.0, 0.0))
-
-        inner.update(noted(within))
+        inner.update(noted(lambda: spring(1.0, 0.5, (1.0, 0.0))))
         weight(1.0, (0.0, -1.0))
 
-    assert noted(outer) == {"2.81"}
+    assert noted(outer) == {"2.81", "2.82"}
     assert inner == {"2.82"}
+
+
+def test_what_ran_before_is_not_noted() -> None:
+    weight(1.0, (0.0, -1.0))
+    assert noted(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
+
+
+def marks(text: str) -> list[str]:
+    """The functions of a module's text that state equations, or are marked, but not both."""
+    wrong = []
+    for node in ast.walk(ast.parse(text)):
+        if not isinstance(node, ast.FunctionDef):
+            continue
+        marked = any(isinstance(d, ast.Name) and d.id == "equation" for d in node.decorator_list)
+        only_said = all(isinstance(line, ast.Expr | ast.Raise) for line in node.body)
+        if marked != (bool(equations(ast.get_docstring(node))) and not only_said):
+            wrong.append(node.name)
+    return wrong
+
+
+@pytest.mark.mutant("an equation that is not marked as one")
+def test_each_equation_is_marked() -> None:
+    """Those whose body does something: an interface only says."""
+    texts = {file: file.read_text(encoding="utf-8") for file in REFERENCE.rglob("*.py")}
+    assert {file.name: wrong for file, text in texts.items() if (wrong := marks(text))} == {}
+    assert sum(text.count("@equation\n") for text in texts.values()) > 600
+    sound = next(text for file, text in texts.items() if file.name == "voronets.py")
+    assert "accelerations" in marks(sound.replace("@equation\n", "", 1))
+    assert marks('@equation\ndef f():\n    """Not one."""\n    return 1\n') == ["f"]
 
 
 @pytest.mark.slow
@@ -148,17 +117,3 @@ def test_claimed_equations_are_executed() -> None:
     for name, case in scenes.EVERY.items():
         left = sorted(set(case.origin.equations) - scenes.solved(name).equations)
         assert not left, f"{name} claims {left}, which nothing in its solution executes"
-
-
-@pytest.mark.mutant("the calls of an import count among those that a watch looks at")
-def test_an_import_is_not_looked_at(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Else a case solved first in a process would be noted as using less than later."""
-    lines = f"def f():\n    pass\nfor _ in range({CALLS + 1}):\n    f()\n"
-    (tmp_path / "calls_much.py").write_text(lines, encoding="utf-8")
-    monkeypatch.syspath_prepend(tmp_path)
-
-    def work() -> None:
-        import_module("calls_much")
-        spring(1.0, 0.5, (1.0, 0.0))
-
-    assert noted(work) == {"2.82"}

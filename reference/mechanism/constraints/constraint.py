@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ....cases.scene import Anchor
+from ...coverage import equation
 from ..kinematics.kinematics import Kinematics, Layout, Point, Row
 from .constraint_terms import Along, Term
 from .equation_table import Table
@@ -51,6 +52,7 @@ class Constraint:
         """The place [m or rad] that each row is the rate of, (r,); nan where it is of none."""
         return self.alone.places(t, q)
 
+    @equation
     def f(self, t: Any, q: Numbers) -> list[Any]:
         """(2.14) f = places − where they are held [m or rad], (≤ r,); () if all are rates."""
         if self.held is None:
@@ -58,6 +60,7 @@ class Constraint:
         pairs = zip(self.places(t, q), self.held, strict=True)
         return [place - at for place, at in pairs if at is not None]
 
+    @equation
     def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: a force λ u along the direction of its row, or a moment λ."""
         return self.alone.reactions(t, q, dict(enumerate(multipliers)))
@@ -69,6 +72,7 @@ class Constraint:
 
     # What a table asks, to write its rows down.
 
+    @equation
     def written(self, k: Kinematics) -> list[Row]:
         """(2.15) Its rows."""
         ends = self._ends(k)
@@ -112,6 +116,7 @@ def row(part: Constraint, t: float, q: Any, v: Any) -> tuple[Any, float, float]:
     return f[0], g[0], gamma[0]
 
 
+@equation
 def residuals(table: Table, parts: Sequence[Constraint], t: Any, q: Numbers) -> list[Any]:
     """(2.14) f of those of the parts that are holonomic, (≤ r,), from a table that has them."""
     places, found = table.places(t, q), []

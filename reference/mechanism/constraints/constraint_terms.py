@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ....cases.scene import Signal
+from ...coverage import equation
 from ..kinematics import signal
 from ..kinematics.frame import Vec
 from ..kinematics.kinematics import Direction, Kinematics, Point, Row
@@ -52,6 +53,7 @@ class Along:
     u: Numbers
     angular = False
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) f = (u, d × u)."""
         return k.along(ends[self.p], k.fixed(self.u))
@@ -73,6 +75,7 @@ class Turning:
     axis: float = 1.0  # about +z; with a radius R the term is the velocity R ω [m/s]
     angular = True
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) ω = φ̇; γ = 0."""
         return Row([(ends[self.p].part, None, Vec((self.axis,)))])
@@ -98,6 +101,7 @@ class Line:
     def _carried(self, k: Kinematics, ends: Ends) -> Direction:
         return k.carried(ends[self.a].part, self.u)
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·Δ̇ + ω_a·(u × Δ)."""
         return k.line(ends[self.a], ends[self.b], self._carried(k, ends))
@@ -119,6 +123,7 @@ class Apart:
     b: int
     angular = False
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·Δ̇, and u̇ = (Δ̇ − (u·Δ̇) u)/λ."""
         a, b = ends[self.a], ends[self.b]
@@ -146,6 +151,7 @@ class Distance:
     def _apart(self) -> Apart:
         return Apart(self.a, self.b)
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) −u·Δ̇."""
         return -self._apart.row(k, ends)
@@ -167,6 +173,7 @@ class Around:
     b: int
     angular = False
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) w·Δ̇, and ẇ turns with u̇."""
         a, b = ends[self.a], ends[self.b]
@@ -189,6 +196,7 @@ class Carried:
     u: Numbers  # in the axes of the body
     angular = False
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) f = (u, d × u), d × u being the same in body axes at all times."""
         p = ends[self.p]
@@ -209,6 +217,7 @@ class Given:
     law: Signal
     angular: bool = False
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) g = s(t), and γ = ṡ(t)."""
         (size,) = self.law.amplitude
@@ -237,6 +246,7 @@ class Dot:
         a, b = ends[self.a].part, ends[self.b].part
         return k.carried(a, self.u), k.carried(b, self.w)
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) The moment w × u on b, and its rate by u̇ = ω_a × u and ẇ = ω_b × w."""
         u, w = self._axes(k, ends)
@@ -276,6 +286,7 @@ class Turn:
         own, beside = self.weights
         return one.u * own + other.u * beside, one.u_dot * own + other.u_dot * beside
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) m·(ω_b − ω_a), and γ = −ṁ·(ω_b − ω_a)."""
         return k.turn(ends[self.a].part, ends[self.b].part, *self._axis(k, ends))
@@ -312,6 +323,7 @@ class Lowest:
         steep_dot = -(n * s_dot + n_dot * s) * each + steep * (s * s_dot * each * each)
         return k.armed(part, steep * -self.radius, steep_dot * -self.radius)
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.19) u·(ṙ_c + ω × ρ); its rate has ω × ρ̇ beside accelerations."""
         return k.along(self._point(k, ends), k.fixed(self.u))
@@ -344,6 +356,7 @@ class Heading:
         x, y, turning = x * each, y * each, (x * y_dot - y * x_dot) * each * each
         return Direction(Vec((-y, x, 0.0)), Vec((-(turning * x), -(turning * y), 0.0)))
 
+    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·ṙ_P."""
         return k.along(ends[self.p], self._left(k, ends))

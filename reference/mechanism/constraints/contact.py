@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ....cases.scene import CENTER, Contact, Joint
+from ...coverage import equation
 from ..kinematics.kinematics import Layout
 from .constraint import Constraint
 from .constraint_terms import FIRST, SECOND, Along, Line, Term, Turning
@@ -23,6 +24,7 @@ def normal(contact: Contact, where: Layout) -> Constraint:
     return Constraint(contact.name, (contact.at,), (row,), (("normal",),), held, where)
 
 
+@equation
 def tangent(contact: Contact, where: Layout) -> Constraint:
     """(2.16) u·ṙ_P + R ω = 0: it sticks, a rim: it rolls, somewhere; λ is the friction force."""
     row = (Along(FIRST, contact.plane.along), Turning(FIRST, _radius(contact, where)))

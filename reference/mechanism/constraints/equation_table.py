@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ...coverage import look
+from ...coverage import equation
 from ..kinematics.frame import Vec
 from ..kinematics.kinematics import Kinematics, Layout, Part, Row
 from ..kinematics.tape import Compiled, is_number
@@ -74,10 +74,8 @@ class Table:
         """
         k, rows = Kinematics(self.where), list[Row]()
         for constraint in self.constraints:
-            look()  # whoever notes equations: to write one down takes hundreds of calls
             rows += constraint.written(k)
         for force in self.forces:
-            look()
             rows.append(Row(force.loads(k)))
         targets, results = [], []
         for i, row in enumerate(rows):
@@ -127,6 +125,7 @@ class Table:
         numbers.reshape(-1)[targets] = run.complex(t, q.tolist(), v.tolist())
         return numbers
 
+    @equation
     def rows(self, t: Any, q: Any, v: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
         numbers = self.entries(t, q, v)[: self.size].copy()
@@ -151,6 +150,7 @@ class Table:
         names = [(i, name) for i, told in enumerate(each) for name in told]
         return *_apart(k, [x for told in each for x in told.values()]), names
 
+    @equation
     def reactions(
         self, t: float, q: Sequence[Any], multipliers: Mapping[int, Any]
     ) -> dict[str, Any]:
@@ -195,11 +195,13 @@ class Rows:
         row, column = np.nonzero(self.table.pattern[self.places])
         return row, column
 
+    @equation
     def __call__(self, t: Any, q: Any, v: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
         numbers = self.table.entries(t, q, v)[self._taken]
         return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
 
+    @equation
     def entries(self, t: float, q: Any, v: Any) -> tuple[Any, Any]:
         """(2.15) Those of the f_a that `pattern` names, and γ (r,)."""
         numbers, (row, column) = self.table.numbers(t, q, v), self.pattern

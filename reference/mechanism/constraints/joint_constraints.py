@@ -13,6 +13,7 @@ import numpy as np
 from ....cases.scene import GROUND, Contact, Edge, Joint, Scene, Signal, Vector
 from ....cases.scene.chain import across as completing
 from ....cases.scene.joint import Freedom
+from ...coverage import equation
 from ..kinematics.frame import PLANE
 from ..kinematics.kinematics import Layout
 from .constraint import Constraint
@@ -62,6 +63,7 @@ def constraints(
     return found
 
 
+@equation
 def jointed(joint: Joint, where: Layout) -> Constraint:
     """(2.14) What a joint does not leave free: to shift along its line, to turn, to come nearer."""
     if joint.swings:
@@ -80,6 +82,7 @@ def _held_by(joint: Any, held: Sequence[Held], where: Layout) -> Constraint:
     return Constraint(joint.name, (joint.a, joint.b), rows, names, places, where)
 
 
+@equation
 def edged(edge: Edge, where: Layout) -> Constraint:
     """(2.15) n·ṙ_P = 0, n to the left of the blade; with a prescribed speed, u·ṙ_P = s(t) too."""
     rows: list[tuple[Term, ...]] = [(Carried(FIRST, edge.across),)]
@@ -90,6 +93,7 @@ def edged(edge: Edge, where: Layout) -> Constraint:
     return Constraint(edge.name, (edge.at,), tuple(rows), tuple(names), None, where)
 
 
+@equation
 def driven(scene: Scene, quantity: str, law: Signal, where: Layout) -> Constraint:
     """(2.15) ω_B − ω_A = s(t), λ being the torque on B; or d/dt u·(r_B − r_A) = s(t), λ along u."""
     part, _, rate = quantity.rpartition(".")
@@ -166,6 +170,7 @@ def _in_space(scene: Any, where: Layout) -> Iterator[Constraint]:
         yield _driven(scene, quantity, law, where)
 
 
+@equation
 def _jointed(joint: Joint, where: Layout) -> Constraint:
     """(2.14) Where the freedoms do not let the second part be.
 
@@ -196,6 +201,7 @@ def _unturned(joint: Joint) -> Iterator[tuple[Numbers, Numbers, float]]:
             yield _numbers(np.eye(3)[i]), _numbers(np.eye(3)[(i + 1) % 3]), 0.0
 
 
+@equation
 def _standing(contact: Contact, where: Layout) -> Constraint:
     """(2.19) What touches the floor z = 0 keeps its height, and slips nowhere.
 
@@ -213,6 +219,7 @@ def _standing(contact: Contact, where: Layout) -> Constraint:
     return Constraint(contact.name, (contact.at,), rows, names, (None, None, 0.0), where)
 
 
+@equation
 def _bladed(edge: Edge, where: Layout) -> Constraint:
     """(2.15) A point does not move across a heading; or upward, where its height is kept."""
     rows: list[tuple[Term, ...]] = [(Heading(FIRST, edge.along),)]
@@ -223,6 +230,7 @@ def _bladed(edge: Edge, where: Layout) -> Constraint:
     return Constraint(edge.name, (edge.at,), tuple(rows), tuple(names), None, where)
 
 
+@equation
 def _driven(scene: Any, quantity: str, law: Signal, where: Layout) -> Constraint:
     """(2.15), (2.55) A freedom's rate is prescribed; λ is what the drive exerts along it.
 

@@ -28,6 +28,7 @@ from ....cases.scene.forces.force import (
     TorsionDamper,
     of,
 )
+from ...coverage import equation
 from ...laws.force import hill, linear, torsion, torsion_damper
 from ...laws.friction import power_law
 from ..kinematics.frame import Vec, back, carried
@@ -70,18 +71,22 @@ class Action:
         """(2.50) What it exerts, on each part."""
         raise NotImplementedError
 
+    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) its share of U [J]."""
         return 0.0
 
+    @equation
     def V(self, k: Kinematics) -> Any:
         """(2.48) its share of V [J]."""
         return 0.0
 
+    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) its share of D [W]."""
         return 0.0
 
+    @equation
     def Q4(self, k: Kinematics) -> list[Load]:
         """(2.50) what it exerts, of what has no U, no V and no D."""
         return []
@@ -99,6 +104,7 @@ class Action:
         return None
 
 
+@equation
 def pushed(k: Kinematics, p: Point, F: Vec) -> Load:
     """(2.50) A force at a point: F, and d × F, which in body axes is `own` × Rᵀ F."""
     return p.part, F, k.frame.wedge(p.own, back(p.part.R, F))
@@ -157,6 +163,7 @@ class Sprung(Lined):
     def line(self) -> bool:
         return self.force.rest_length > 0.0
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.82) c (λ − λ₀) along Δ on the first end: stretched, it pulls."""
         d, force = self.gap(k), self.force
@@ -167,6 +174,7 @@ class Sprung(Lined):
             k, *self.ends(k), d * (force.stiffness * (length - force.rest_length) / length)
         )
 
+    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) ½ c (λ − λ₀)²; ½ c λ² has a derivative at λ = 0 too."""
         if self.force.rest_length == 0.0:
@@ -191,11 +199,13 @@ class Damped(Lined):
 
     force: Damper
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.47) d λ̇ along Δ on the first end, λ̇ = Δ·Δ̇/λ."""
         u = self.gap(k) / self.directed(k)
         return pulled(k, *self.ends(k), u * (self.force.damping * (u @ self.gap_dot(k))))
 
+    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) ½ d λ̇²."""
         d = self.gap(k)
@@ -224,6 +234,7 @@ class Contracted(Lined):
         beside = self.force.parallel_stiffness * (length - self.force.rest_length)
         return pulled(k, *self.ends(k), self.gap(k) * ((self._series(k) + beside) / length))
 
+    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) ½ c_s (λ − u)² + ½ c_p (λ − λ₀)² [J]."""
         series = self._series(k) / self.force.series_stiffness
@@ -267,12 +278,14 @@ class Pushed(Action):
 
     force: Push
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) F(t)."""
         force = self.force
         F = Vec(force.signal.amplitude) * k.signal(force.signal)
         return [pushed(k, k.point(force.at), F)]
 
+    @equation
     def Q4(self, k: Kinematics) -> list[Load]:
         """(2.50) F·∂r/∂qᵃ, with d × F of ground axes."""
         p = k.point(self.force.at)
@@ -286,6 +299,7 @@ class Torqued(Action):
 
     force: Torque
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) M(t)."""
         part, law = k.part(self.force.body), self.force.signal
@@ -301,6 +315,7 @@ class Coupled(Action):
 
     force: Couple
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) M·∂(φ₂ − φ₁)/∂qᵃ."""
         M = Vec(self.force.signal.amplitude) * k.signal(self.force.signal)
@@ -318,12 +333,14 @@ class Deflected(Action):
     def _centre(self, k: Kinematics) -> Point:
         return k.point(Anchor(self.force.body, CENTER))
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.49) F = e v × B, to the right of v for e B > 0."""
         centre, each = self._centre(k), self.force.charge * self.force.along_z
         x_dot, y_dot = centre.r_dot
         return [pushed(k, centre, Vec((each * y_dot, -(each * x_dot))))]
 
+    @equation
     def V(self, k: Kinematics) -> Any:
         """(2.49) V = ½ e B (y ẋ − x ẏ) [J]."""
         centre = self._centre(k)
@@ -352,6 +369,7 @@ class Turned(Action):
         """M m."""
         return self.turn(k).m * self.M(k)
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) M m on the second part, its opposite on the first."""
         return self.turn(k).couple(k, self.moment(k))
@@ -363,10 +381,12 @@ class Twisted(Turned):
 
     force: Torsion
 
+    @equation
     def M(self, k: Kinematics) -> Any:
         """(2.45) −c (φ − φ₀)."""
         return torsion(self.force.stiffness, self.force.rest_angle, self.turn(k).angle)
 
+    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) ½ c (φ − φ₀)²."""
         return 0.5 * self.force.stiffness * (self.turn(k).angle - self.force.rest_angle) ** 2
@@ -378,10 +398,12 @@ class Braked(Turned):
 
     force: TorsionDamper
 
+    @equation
     def M(self, k: Kinematics) -> Any:
         """(2.47) −d φ̇."""
         return torsion_damper(self.force.damping, self.turn(k).rate)
 
+    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) ½ d φ̇²."""
         return 0.5 * self.force.damping * self.turn(k).rate ** 2
@@ -397,6 +419,7 @@ class Driven(Turned):
         """M(t)."""
         return self.force.signal.amplitude[0] * k.signal(self.force.signal)
 
+    @equation
     def Q4(self, k: Kinematics) -> list[Load]:
         """(2.50) M ∂φ̇/∂ω of both parts."""
         turn = self.turn(k)
@@ -420,6 +443,7 @@ class Dragged(Action):
         both = (u, Vec((-u[1], u[0])))
         return [(d, e, e @ p.r_dot) for d, e in zip(self.force.ways, both, strict=True)]
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.83), (2.84), (2.85), (2.86) −d |v|^α v/|v|, or Σ −d_i |v_i|^α sign(v_i) e_i."""
         p, force = k.point(self.force.at), self.force
@@ -429,6 +453,7 @@ class Dragged(Action):
         each = [e * k.tape.call(OneWay(d, force.exponent), s) for d, e, s in self._ways(k)]
         return [pushed(k, p, each[0] + each[1])]
 
+    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) D = d |v|^{α+1}/(α + 1) [W], or the sum of both ways."""
         p, force = k.point(self.force.at), self.force
@@ -451,12 +476,14 @@ class Slowed(Action):
         u = k.carried(a.part, joint.along).u
         return a, b, u, u @ (b.r_dot - a.r_dot)
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.86) −d |v|^α sign(v) along u on the second part."""
         a, b, u, speed = self._along(k)
         F = u * k.tape.call(OneWay(self.force.coefficient, self.force.exponent), speed)
         return pulled(k, b, a, F)
 
+    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) D = d |v|^{α+1}/(α + 1) [W], d that of the way it goes."""
         speed = self._along(k)[3]
@@ -531,6 +558,7 @@ class Gyroscopic:
 
     name: str
 
+    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.27), (2.33) −ω × J ω, in body axes."""
         part, J = k.part(self.name), k.scene.bodies[self.name].tensor

@@ -7,6 +7,8 @@ velocities of a body hold ω in its own axes, which in the plane is the same num
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+from ...coverage import equation
+
 
 class Vec(tuple[Any, ...]):
     """A vector of numbers, or of what a tape writes down."""
@@ -95,6 +97,7 @@ class _Space:
     axes: Columns = (Vec((1.0, 0.0, 0.0)), Vec((0.0, 1.0, 0.0)), Vec((0.0, 0.0, 1.0)))
     turns, attitude = 3, 4
 
+    @equation
     def rotation(self, maths: Any, e: Sequence[Any]) -> Columns:
         """(2.3) R of the quaternion e = (w, x, y, z), whose length plays no part: that of e/|e|."""
         w, x, y, z = e

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from ....cases.scene import GROUND, Anchor, Signal
+from ...coverage import equation
 from . import signal as law
 from .frame import Columns, Frame, Vec, back, carried
 from .tape import Tape
@@ -173,6 +174,7 @@ class Kinematics:
             )
         return self._points[at]
 
+    @equation
     def fixed_in(self, part: Part, x: Sequence[float]) -> Point:
         """(2.1), (2.6), (2.7) The point x of a body, in its axes from the centre of mass."""
         own = Vec(x)
@@ -181,6 +183,7 @@ class Kinematics:
         beside = self.frame.cross(part.spin, whirl)
         return Point(part, part.r + d, part.r_dot + whirl, own, beside)
 
+    @equation
     def armed(self, part: Part, arm: Vec, arm_dot: Vec) -> Point:
         """(2.19) The point of a rolling body that touches: `arm` ρ does not turn with the body.
 
@@ -210,6 +213,7 @@ class Kinematics:
         """A direction of the ground."""
         return Direction(Vec(u), self.still)
 
+    @equation
     def carried(self, part: Part, own: Sequence[float]) -> Direction:
         """(2.6) A direction that a body carries: u̇ = ω × u."""
         u = carried(part.R, own)

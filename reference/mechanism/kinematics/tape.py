@@ -15,8 +15,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ...coverage import look
-
 DEEP = 20  # terms within each other: a deeper one gets a name, as Python reads no endless nest
 
 
@@ -169,11 +167,7 @@ class Tape:
         return Scalar(self, self._at((operation, tuple(of))), sign)
 
     def compiled(self, results: Sequence[Any]) -> Compiled:
-        """The function of these results.
-
-        The formulas ran to be written down, thousands of calls: whoever notes equations looks anew.
-        """
-        look()
+        """The function of these results."""
         return Compiled(self, results)
 
     @property

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...coverage import equation
 from ...system import Array
 from ..constraints.leeway import FITS, Leeway, sized
 from .element import Element, State, sign
@@ -180,6 +181,7 @@ def _allowed(
     return Blow(inmost, shared=True, loose=any(high - low > SAME * fast for low, high in spans))
 
 
+@equation
 def _pushes(rows: _Rows, meetings: Sequence[Meeting], impulse: Array) -> Iterator[float]:
     """(2.87) for impulses, each ≥ 0: what touches pushes, and what sticks is within the cone.
 

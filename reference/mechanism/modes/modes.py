@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from ....cases.scene import Scene
+from ...coverage import equation
 from ...system import MOVING, Array
 from ..constraints.constraint import Constraint, row
 from ..constraints.leeway import Leeway
@@ -110,6 +111,7 @@ class Modes(Mapping[str, Multibody]):
     def _pairs(self, states: tuple[State, ...]) -> list[tuple[Element, State]]:
         return list(zip(self.elements, states, strict=True))
 
+    @equation
     def margins(self, states: tuple[State, ...], forces: Mapping[str, float]) -> list[float]:
         """(2.87), (2.89) What forces leave [N, N m] until a contact opens or what sticks slips."""
         found: list[float] = []

@@ -8,6 +8,7 @@ share of each: the row of no slip holds once.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from ...coverage import equation
 from .element import Element, State
 
 
@@ -26,6 +27,7 @@ class Shared:
         """The reactions of which only the sum is determined."""
         return tuple(f"{name}.tangent" for name in self.contacts)
 
+    @equation
     def divided(self, forces: Mapping[str, float]) -> dict[str, float]:
         """(2.89) each takes a part as μ_s F_N, so that all break loose at one force [N]."""
         both = zip(self.contacts, self.static, strict=True)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ....cases.scene import DryFriction, Scene, Smooth
+from ...coverage import equation
 from ...laws.friction import Dry, smooth
 from ...system import Array
 from ..constraints.constraint import Constraint, row
@@ -51,6 +52,7 @@ class SmoothMultibody(Multibody):
             shared=shared, slack=slack, base=base,
         )  # fmt: skip
 
+    @equation
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
         a, multipliers = self._resting.solve(t, q, v)
@@ -76,6 +78,7 @@ class SmoothMultibody(Multibody):
         held = by_rows @ gamma
         return held + beside @ (a - held)
 
+    @equation
     def _friction(self, k: int) -> Callable[[float, Array, Array], float]:
         """(2.95) F_fr of the k-th slide; F_a is what would hold it at rest."""
 
@@ -103,6 +106,7 @@ def _split(rows: Array, M: Array) -> tuple[Array, Array]:
     return by_rows, beside
 
 
+@equation
 def _left(F: Dry, law: Smooth, v: float, F_a: float) -> float:
     """(2.95) F_a + F_fr = F_a (1 − h_v h_F) + F₋ {…} − F₊ {…} [N], h = 1 − below − above."""
     slower, faster = _outside(law.sharpness, v, law.band, law.band)
@@ -113,6 +117,7 @@ def _left(F: Dry, law: Smooth, v: float, F_a: float) -> float:
     return F_a * free + F.F_minus * backward - F.F_plus * forward
 
 
+@equation
 def _outside(A: float, x: float, low: float, high: float) -> tuple[float, float]:
     """(2.96) ½ (1 − tanh A (x + low)) and ½ (1 + tanh A (x − high)), however small."""
     return _logistic(-2 * A * (x + low)), _logistic(2 * A * (x - high))

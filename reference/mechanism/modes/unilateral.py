@@ -21,6 +21,7 @@ from ....cases.scene import CENTER, Anchor, Limit, Scene
 from ....cases.scene.forces.force import Spring
 from ....cases.scene.forces.limit import Rope, Stops
 from ....cases.scene.pair import Pair
+from ...coverage import equation
 from ...system import Array
 from ..constraints.constraint import Constraint, row
 from ..constraints.constraint_terms import (
@@ -67,6 +68,7 @@ def paired(pair: Pair, where: Layout) -> Touching:
     )
 
 
+@equation
 def apart(pair: Pair, where: Layout) -> Constraint:
     """(2.14) Closed, |r_b − r_a| = R + R_a of two rims, n·(r_P − r_a) = R on a face; λ pushes."""
     row: tuple[Term, ...] = (Apart(FIRST, SECOND),)
@@ -77,6 +79,7 @@ def apart(pair: Pair, where: Layout) -> Constraint:
     return Constraint(pair.name, _ends(pair), (row,), (("normal",),), held, where)
 
 
+@equation
 def along(pair: Pair, where: Layout) -> Constraint:
     """(2.15) Nothing slips where both touch; λ is the friction on b.
 
@@ -135,6 +138,7 @@ class Roped(Limited):
         return f"{self.name} would have to push"
 
 
+@equation
 def roped(scene: Scene, rope: Rope, side: str, where: Layout) -> Limited:
     """(2.14) −λ = −L; its multiplier pulls both ends together."""
     sense, at = rope.sides[side]
@@ -160,6 +164,7 @@ class Stopped(Limited):
         return f"{self.name} would have to hold what leaves it"
 
 
+@equation
 def stopped(scene: Scene, stops: Stops, side: str, where: Layout) -> Limited:
     """(2.14) ±(φ_B − φ_A) = ±φ₀; its multiplier is a moment on the second part, or the opposite."""
     joint, (sense, at) = scene.joints[stops.joint], stops.sides[side]

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...coverage import equation
 from ...system import Array, Vector
 from .block_on_guide import BlockOnGuide
 from .stick_slip import Pull
@@ -17,14 +18,17 @@ from .stick_slip import Pull
 class _Ramp:
     b: float
 
+    @equation
     def F_a(self, t: float, x: float) -> float:
         """(2.97) F_a = −b t [N]."""
         return -self.b * t
 
+    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) nothing has a potential."""
         return 0.0
 
+    @equation
     def Q4(self, t: Any) -> Any:
         """(2.50) Q = −b t [N]."""
         return -self.b * t
@@ -55,6 +59,7 @@ class GrowingForce(BlockOnGuide):
         """The forces on the block but friction."""
         return _Ramp(self.b)
 
+    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.97) m v = −½ b (t² − t_s²) + F₋ (t − t_s), b t_s = F_s₋, and its integral m x.
 
@@ -65,6 +70,7 @@ class GrowingForce(BlockOnGuide):
         x = (drop * tau**2 / 2 - self.b * tau**3 / 6) / self.m
         return np.array([x]), np.array([(drop * tau - self.b * tau**2 / 2) / self.m])
 
+    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.97) slips at t_s = F_s₋/b, for good."""
         t_s = self.Fs_minus / self.b

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...coverage import equation
 from ...system import Array, Vector
 from .triples import (
     GROUND,
@@ -43,6 +44,7 @@ class Link:
     a: Triple
     b: Triple
 
+    @equation
     def turned(self, x: Triple) -> Triple:
         """(2.31) J_ik x_k, in body axes."""
         d1, d2, d3, d12, d13, d23 = self.J
@@ -88,6 +90,7 @@ class Moving:
     end_ddot: Triple
 
 
+@equation
 def places(q: Vector) -> list[Place]:
     """(2.8)–(2.12) R_k and E_k of every body as functions of q."""
     cos, sin = np.cos(q).tolist(), np.sin(q).tolist()
@@ -101,6 +104,7 @@ def places(q: Vector) -> list[Place]:
     return found
 
 
+@equation
 def outward(where: list[Place], v: Any, a: Any) -> list[Moving]:
     """(2.7) r̈ = r̈_p + ω̇ × x + ω × (ω × x), from the ground on, for rates v and q̈ = a.
 
@@ -121,6 +125,7 @@ def outward(where: list[Place], v: Any, a: Any) -> list[Moving]:
     return found
 
 
+@equation
 def inward(
     where: list[Place], moving: list[Moving], tip: Triple = NIL
 ) -> list[tuple[Triple, Triple]]:
@@ -143,12 +148,14 @@ def inward(
     return found[::-1]
 
 
+@equation
 def bias(where: list[Place], v: Any) -> list[Any]:
     """(2.27) The torques u_k · M_k [N m] that q̈ = 0 needs: M_ab q̈ᵇ + bias = torques."""
     wrenches = inward(where, outward(where, v, (0.0,) * 5))
     return [dot(place.u, M) for place, (_, M) in zip(where, wrenches, strict=True)]
 
 
+@equation
 def mass_matrix(where: list[Place]) -> Array:
     """(2.44) M_ab [kg m²], (5, 5): the torque at a that q̈_b = 1 alone needs, from rest.
 

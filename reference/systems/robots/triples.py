@@ -5,6 +5,8 @@ A frame E is the triple of a body's axes E₁, E₂, E₃ in ground axes, as in 
 
 from typing import Any
 
+from ...coverage import equation
+
 Triple = tuple[Any, Any, Any]
 Frame = tuple[Triple, Triple, Triple]
 
@@ -37,6 +39,7 @@ def times(s: Any, a: Triple) -> Triple:
     return s * a[0], s * a[1], s * a[2]
 
 
+@equation
 def grounded(E: Frame, x: Triple) -> Triple:
     """(2.1) x = x_i E_i in ground axes, of x_i in body axes."""
     return (
@@ -46,11 +49,13 @@ def grounded(E: Frame, x: Triple) -> Triple:
     )
 
 
+@equation
 def embodied(E: Frame, x: Triple) -> Triple:
     """(2.1) x_i = E_i · x in body axes, of x in ground axes."""
     return dot(E[0], x), dot(E[1], x), dot(E[2], x)
 
 
+@equation
 def about(E: Frame, axis: int, cos: Any, sin: Any) -> Frame:
     """(2.3) E after a turn about its own axis 0, 1 or 2."""
     b, c = (axis + 1) % 3, (axis + 2) % 3

@@ -22,6 +22,7 @@ ALLOWED = {
     # And those of one body, that the generated answers do without (below).
     *("reference.laws.inertia", "reference.laws.momentum"),
     "reference.stated",
+    "reference.coverage",  # no mechanics: it notes which equations run
     # The mathematics of closed forms.
     *(f"{HERE}.elliptic", f"{HERE}.quadrature"),
     f"{HERE}.friction.dynamometer",  # by which a block on a floor is drawn
