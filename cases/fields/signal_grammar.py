@@ -2,8 +2,8 @@
 
 A force has the law as one key among its others (`sine: {…}`). What is prescribed has a map with
 that one key as its value, and a plain number there is a constant. From what is written the noun
-`Signal` is made. The models are built by `keys`, since an amplitude's unit and its number of axes
-depend on what follows the law.
+`Signal` is made. The models are built by `law_fields`, since an amplitude's unit and its number of
+axes depend on what follows the law.
 """
 
 from collections.abc import Iterator
@@ -17,12 +17,12 @@ from pydantic_core import CoreSchema
 from .field import AnyUnit, Coefficients, In
 from .number import Amount, per_second
 from .part import Angle, Made, Part, plain_or_map, unit
-from .signal import Law as Word
+from .signal import Law as LawName
 from .signal import Signal
 from .words import wrong
 
-LAWS: tuple[Word, ...] = get_args(Word)
-JUMPS: tuple[Word, ...] = ("step", "pulse")  # laws that no velocity can follow
+LAWS: tuple[LawName, ...] = get_args(LawName)
+JUMPS: tuple[LawName, ...] = ("step", "pulse")  # laws that no velocity can follow
 Instant = Annotated[float, In("s", least=0)]
 
 
@@ -35,7 +35,7 @@ class InTime:
 
 
 class Numbers(Part):
-    """Base of the laws that have several numbers; `keys` adds to each the field for its size.
+    """Base of the laws that have several numbers; to each is added the field for its size.
 
     It is `amplitude`, or the unit vector `along` of a law that has values of its own.
     """
@@ -58,7 +58,7 @@ class Step(Numbers):
     at: Instant
 
     def noun(self) -> dict[str, Any]:
-        # `keys` adds the amplitude: by its plain name a type checker would not find it here.
+        # The amplitude is added: by its plain name a type checker would not find it here.
         return {"amplitude": getattr(self, "amplitude"), "times": (self.at,)}  # noqa: B009
 
 
@@ -113,7 +113,7 @@ class Table(Numbers):
 class Following(Part):
     """Base of what follows exactly one law in time: it has a field for each, and one is given."""
 
-    laws: ClassVar[tuple[Word, ...]] = LAWS
+    laws: ClassVar[tuple[LawName, ...]] = LAWS
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in LAWS]})
 
     def model_post_init(self, context: object) -> None:
@@ -123,7 +123,7 @@ class Following(Part):
             raise wrong(f"needs exactly one of {', '.join(self.laws)}; {has}")
 
     @property
-    def law(self) -> Word:
+    def law(self) -> LawName:
         """The name of the law that is given."""
         return next(law for law in self.laws if getattr(self, law) is not None)
 
@@ -158,7 +158,7 @@ class Following(Part):
 class Prescribed(Following):
     """Base of a law for a prescribed velocity: no law that jumps, for a jump is a blow."""
 
-    laws: ClassVar[tuple[Word, ...]] = tuple(law for law in LAWS if law not in JUMPS)
+    laws: ClassVar[tuple[LawName, ...]] = tuple(law for law in LAWS if law not in JUMPS)
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
     elsewhere = dict.fromkeys(
         JUMPS, "a velocity that jumps is a blow; a `table` climbs in a time that you choose"
@@ -168,24 +168,26 @@ class Prescribed(Following):
 class Moving(Following):
     """A law in time of a place, whose velocity cannot jump either."""
 
-    laws: ClassVar[tuple[Word, ...]] = ("ramp", "sine", "polynomial")
+    laws: ClassVar[tuple[LawName, ...]] = ("ramp", "sine", "polynomial")
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
     elsewhere = dict.fromkeys(
         (*JUMPS, "table"), "a velocity that jumps is a blow; take a `polynomial`"
     )
 
 
-def law(title: str, signal: Any, axes: int | None = None) -> dict[str, tuple[Any, Any]]:
+def signal_fields(title: str, signal: Any, axes: int | None = None) -> dict[str, tuple[Any, Any]]:
     """Returns the keys that give the `signal` of a force, as fields of its model.
 
     signal: the noun's annotated field, marked with InTime. axes: along how many it has an
     amplitude, if not along as many as the mark says. title: what the models' names begin with.
     """
     (mark,) = (mark for mark in signal.__metadata__ if isinstance(mark, InTime))
-    return keys(title, mark.unit, mark.axes if axes is None else axes)
+    return law_fields(title, mark.unit, mark.axes if axes is None else axes)
 
 
-def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str, tuple[Any, Any]]:
+def law_fields(
+    title: str, unit: str | None, axes: int, laws: Any = LAWS
+) -> dict[str, tuple[Any, Any]]:
     """Returns a field for each of the laws, None by default: its key, its model and the default.
 
     axes: along how many the amplitude has entries. unit: of the amplitude; None where it is known
@@ -193,7 +195,7 @@ def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str,
     """
     size = _amount(unit, axes)
     along = {} if axes == 1 else {"along": (_direction(axes), ...)}
-    numbers: dict[Word, tuple[type[Numbers], dict[str, Any]]] = {
+    numbers: dict[LawName, tuple[type[Numbers], dict[str, Any]]] = {
         "sine": (Sine, {"amplitude": size}),
         "step": (Step, {"amplitude": size}),
         "pulse": (Pulse, {"amplitude": size, "from": Instant}),
@@ -201,7 +203,10 @@ def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str,
         "table": (Table, {"values": tuple[_amount(unit, 1), ...]}),
     }
     # A ramp's number is a rate; a unit that is not known yet stays None.
-    kinds: dict[Word, Any] = {"constant": size, "ramp": _amount(unit and per_second(unit, 1), axes)}
+    kinds: dict[LawName, Any] = {
+        "constant": size,
+        "ramp": _amount(unit and per_second(unit, 1), axes),
+    }
     for word, (base, asked) in numbers.items():
         fields: dict[str, Any] = {key: (kind, ...) for key, kind in asked.items()}
         fields |= along if word in ("polynomial", "table") else {}
@@ -212,7 +217,7 @@ def keys(title: str, unit: str | None, axes: int, laws: Any = LAWS) -> dict[str,
 
 
 @dataclass(frozen=True, eq=False)
-class Law:
+class PrescribedLaw:
     """Marks a field with a signal of one axis, written as a number or as a map with its law."""
 
     unit: str
@@ -220,7 +225,7 @@ class Law:
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        fields: dict[str, Any] = keys("Prescribed", self.unit, 1, Prescribed.laws)
+        fields: dict[str, Any] = law_fields("Prescribed", self.unit, 1, Prescribed.laws)
         model = create_model("Prescribed", __base__=Prescribed, __doc__="A law in time.", **fields)
         constant = Made(_amount(self.unit, 1), lambda value: Signal("constant", (value,)))
         number: Any = Annotated[Signal, constant, Tag("<plain>")]

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from ..fields.kind import Fields
 from ..fields.signal import Signal
-from ..fields.signal_grammar import Law
+from ..fields.signal_grammar import PrescribedLaw
 from ..trajectory import Array
 from .body import Body
 from .frame import PLANE, Frame
@@ -43,7 +43,11 @@ class Edge:
     at: Anchor  # the point of the body that does not slip
     along: Vector
     speed: (
-        Annotated[Signal, Law("m/s"), Field(description="prescribed, of the point along the blade")]
+        Annotated[
+            Signal,
+            PrescribedLaw("m/s"),
+            Field(description="prescribed, of the point along the blade"),
+        ]
         | None
     ) = None
     kept: bool = False

@@ -9,7 +9,7 @@ from ...fields.field import AnyUnit
 from ...fields.number import Amount
 from ...fields.part import Made, plain_or_map
 from ...fields.signal import Signal
-from ...fields.signal_grammar import Prescribed, keys
+from ...fields.signal_grammar import Prescribed, law_fields
 from ...fields.text import IDENTIFIER, Text, rate
 from ...mistake import Path
 
@@ -28,7 +28,7 @@ class Drive:
     amounts: tuple[tuple[Path, Amount, int], ...]
 
 
-_fields: dict[str, Any] = keys("Drive", None, 1, Prescribed.laws)
+_fields: dict[str, Any] = law_fields("Drive", None, 1, Prescribed.laws)
 _InTime = create_model("Drive", __base__=Prescribed, __doc__="A law in time.", **_fields)
 
 

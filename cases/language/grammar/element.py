@@ -11,7 +11,7 @@ from typing import Any, ClassVar, get_type_hints
 from pydantic import create_model
 
 from ...fields.part import Name, Pair, Part, Point
-from ...fields.signal_grammar import Following, law
+from ...fields.signal_grammar import Following, signal_fields
 from ...scene.point import anchor
 
 REFERS = ("a", "b", "at", "body", "first", "second", "joint")
@@ -69,7 +69,7 @@ def element(
     refers = asked["joint"][0] if "joint" in asked else refers
     left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}
     if "signal" in left:
-        base, left = InTime, left | law(title, left.pop("signal")[0], axes)
+        base, left = InTime, left | signal_fields(title, left.pop("signal")[0], axes)
     fields: dict[str, Any] = {word: (refers, ...), **left}
     model = create_model(title, __base__=base, __doc__=_said(makes), **fields)
     model.word, model.makes = word, makes

@@ -10,7 +10,7 @@ from ...fields.field import In, Space
 from ...fields.gravity import Gravity
 from ...fields.part import Angle, Direction, Made, Name, OneOf, Part, Point, Position, plain_or_map
 from ...fields.signal import Signal
-from ...fields.signal_grammar import Moving, keys
+from ...fields.signal_grammar import Moving, law_fields
 from ...fields.text import Word
 from ...fields.words import wrong
 from ...scene import plane, point, shape, solid
@@ -147,7 +147,7 @@ SpatialConstraint = Annotated[Blade, OneOf("constraint", CONSTRAINT_KINDS[3])]
 
 
 Velocity = tuple[Annotated[float, In("m/s")], Annotated[float, In("m/s")]]
-_laws: dict[str, Any] = keys("Moving", "m", 2, Moving.laws)
+_laws: dict[str, Any] = law_fields("Moving", "m", 2, Moving.laws)
 _moves = create_model("Moves", __base__=Moving, __doc__=Moving.__doc__, **_laws)
 Moves = Annotated[Signal, Made(_moves, lambda written: written.signal)]
 
