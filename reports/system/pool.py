@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
@@ -230,8 +230,10 @@ class _Process:
         return f"{self._task}{said and ': ' + said} ({time.monotonic() - self._since:.0f} s)"
 
     def kill(self) -> None:
-        """Ends it, whatever it does."""
+        """Ends it, whatever it does, with what its tasks have started and left behind."""
         with _CHILDREN:
+            if self._process.pid is not None:
+                _end_group(self._process.pid)
             self._process.kill()
             self._process.join()
 
@@ -239,6 +241,12 @@ class _Process:
         code = self._process.exitcode
         assert code is not None  # it has been joined
         return signal.Signals(-code).name if code < 0 else f"exit code {code}"
+
+
+def _end_group(leader: int) -> None:
+    with suppress(OSError):  # it has none yet, or all of it is gone
+        if hasattr(os, "killpg"):
+            os.killpg(leader, signal.SIGKILL)
 
 
 @contextmanager
@@ -257,6 +265,8 @@ def _deaf() -> Iterator[None]:
 def _serve(calls: Connection, words: Any, jobs: int) -> None:
     """Answers calls in a worker process, one of `jobs`, until its parent is gone."""
     limit.hold(jobs)
+    if hasattr(os, "setpgid"):  # a group of its own: what an engine starts ends with it
+        os.setpgid(0, 0)
     threading.Thread(target=_with_parent, daemon=True).start()
     threading.Thread(target=_tell, args=(words,), daemon=True).start()
     silence()
@@ -298,4 +308,5 @@ def _with_parent() -> None:
     parent = multiprocessing.parent_process()
     assert parent is not None
     parent.join()
+    _end_group(os.getpid())
     os._exit(1)

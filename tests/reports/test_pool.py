@@ -197,6 +197,39 @@ def test_what_a_task_leaves_running_hides_no_death() -> None:
     assert time.monotonic() - begun < 15  # s: of the 20 that it would be waited for
 
 
+def leaves(task: tuple[Path, bool]) -> None:
+    """Starts a process that outlives it, and tells which; then it may die itself."""
+    told, dies = task
+    left = os.fork()
+    if left == 0:
+        time.sleep(60)
+        os._exit(0)
+    told.write_text(str(left), encoding="utf-8")
+    if dies:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def runs(process: int) -> bool:
+    """Whether it does: one that has ended and that nobody has asked for does not."""
+    status = Path(f"/proc/{process}/status")
+    return status.exists() and "State:\tZ" not in status.read_text(encoding="utf-8")
+
+
+@pytest.mark.mutant("what an engine starts outlives the run")
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="nothing tells what runs")
+@pytest.mark.parametrize("dies", [False, True])
+def test_what_a_task_starts_ends_with_the_pool(dies: bool, tmp_path: Path) -> None:
+    told = tmp_path / "left"
+    with pool.local(1) as executor:
+        list(pool.spread(leaves, [(told, dies)], executor))
+        left = int(told.read_text(encoding="utf-8"))
+        assert dies or runs(left)
+    until = time.monotonic() + 10
+    while runs(left) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert not runs(left)
+
+
 @pytest.mark.mutant("a lock that a forked process holds as long as it lives")
 def test_a_lock_ends_with_who_holds_it_and_not_with_what_it_forked(tmp_path: Path) -> None:
     waited, (ready, begun) = list[int](), os.pipe()
