@@ -45,7 +45,9 @@ def unsound(engine: Any, name: str, setting: str) -> str:
         if (found := getattr(engine, word)) != wanted or not isinstance(found, str):
             return f"its {word} should be {wanted!r}, is {_short(found)}"
     version, step = engine.version, engine.own_step
-    if not (isinstance(version, str) and version.isprintable() and 0 < len(version) <= LETTERS):
+    if not (
+        isinstance(version, str) and version.isprintable() and 0 < len(version.strip()) <= LETTERS
+    ):
         return f"its version should be a short text, is {_short(version)}"
     if formula := no_formula(version):
         return f"its version {formula}"

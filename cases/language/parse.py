@@ -28,7 +28,7 @@ _HOLLOW: dict[str, Any] = {
 
 
 # Keys that a claim about states does not have, and values for those that every other file needs.
-_MOVES = ("initial", "near", "events", "duration", "samples", "step", "rests", "stays")
+_MOVES = ("initial", "near", "events", "duration", "samples", "step", "rests", "stays", "tube")
 _STILL: dict[str, Any] = {"initial": {}, "duration": 1.0, "samples": 3}
 
 # Keys of the scene that name no part.

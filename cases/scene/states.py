@@ -10,7 +10,7 @@ from random import Random
 
 import numpy as np
 
-from ..fields.kind import Fields, Kind
+from ..fields.kind import WORK, Fields, Kind
 from ..trajectory import Array
 from . import Scene
 from .frame import SPACE
@@ -79,13 +79,17 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
         for field, (unit, kind) in fields.items():
             known[f"{part}.{field}"] = Quantity(f"{part}.{field}", part, field, unit, kind)
     units = set(coordinates(scene).values())
-    if len(units) == 1:  # of metres and radians together its entries have no common unit
+    if (
+        scene.frame is SPACE and len(units) == 1
+    ):  # of metres and radians together its entries have no common unit
         unit = "kg m²" if units == {"rad"} else "kg"
         known[MASS_MATRIX] = Quantity(MASS_MATRIX, MASS_MATRIX, "", unit, "inertia")
     return known
 
 
 def _told(scene: Scene, quantity: Quantity) -> bool:
+    if quantity.field in WORK:  # a state has no time in which any would be done
+        return False
     return quantity.kind in _OF_STATES or quantity.part in scene.forces
 
 

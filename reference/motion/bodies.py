@@ -221,6 +221,7 @@ class Answer:
             q, v = mode.parted(y)
             poses = mode.poses(t, q, v)
             times.append(t)
+            t = self.followed.still(t, phase)
             inner = {name: pose[0] for name, pose in poses.items() if len(pose) == 1}
             for name, pose in poses.items():
                 if name not in inner:

@@ -103,6 +103,15 @@ class Followed:
         """The mode at each sample."""
         return tuple(self.phases[k] for k in self.phase)
 
+    def still(self, t: float, phase: int) -> float:
+        """t, or just before it where the phase ends at a corner: its laws in time are those before.
+
+        A force that jumps there, and lets the motion go on in another mode, has done nothing yet.
+        """
+        ends = self.changes[phase] if phase < len(self.changes) else None
+        corner = ends is not None and ends.guard is None and t == ends.time
+        return math.nextafter(t, -math.inf) if corner else t
+
     @property
     def events(self) -> tuple[Change, ...]:
         """The changes that have a name."""

@@ -152,6 +152,34 @@ def test_joints_of_the_plane_are_refused(tmp_path: Path) -> None:
     assert mistakes(tmp_path, text) == [("scene.joints.q", what)]
 
 
+DRAG = PLANE.replace(
+    "states:", "  forces: {d: {drag: wheel.center, coefficient: 2, exponent: 0}}\nstates:"
+)
+
+
+@pytest.mark.mutant("work of unrelated states is a claim")
+def test_no_work_is_done_in_a_state(tmp_path: Path) -> None:
+    what = "'d.work' is no claim about states: work is done in time, and here is none"
+    assert claimed(tmp_path, DRAG.replace("allow: {", "allow: {d.fx: 1, "))
+    found = mistakes(tmp_path, DRAG.replace("allow: {", "allow: {d.work: 1, "))
+    assert found == [("allow.d.work", what)]
+
+
+def test_a_missing_span_is_all_that_is_told(tmp_path: Path) -> None:
+    """And not what the drag's exponent would be in a motion."""
+    found = mistakes(tmp_path, DRAG.replace(", q_dot: [-2, 2]", ""))
+    assert [where for where, _ in found] == ["states.q_dot"]
+
+
+def test_a_mass_matrix_is_of_space(tmp_path: Path) -> None:
+    """Particles of the plane have lengths alone."""
+    text = PLANE[: PLANE.index("  bodies:")] + "  bodies: {ball: {particle: {mass: 2}}}\n"
+    text += PLANE[PLANE.index("states:") : PLANE.index("allow:")]
+    assert claimed(tmp_path, text + "allow: {momentum.x: 1}\n")
+    found = mistakes(tmp_path, text + "allow: {mass_matrix: 1}\n")
+    assert [where for where, _ in found] == ["allow.mass_matrix"]
+
+
 def test_a_file_without_states_still_needs_a_motion(tmp_path: Path) -> None:
     text = PLANE.replace("states: {random: 4, seed: 0, q: [-1, 1], q_dot: [-2, 2]}\n", "")
     found = [what for _, what in mistakes(tmp_path, text)]

@@ -87,7 +87,7 @@ def _words(data: object) -> set[str]:
 
 def slowing(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Yields drags that would stop a motion's points anywhere; the motion itself shows the rest."""
-    if parsed.file.states is not None:
+    if parsed.file.states is not None or parsed.lacks("states"):
         return
     for force in of(Drag, scene.forces.values()):
         path = ("scene", "forces", force.name, "exponent")
@@ -187,6 +187,8 @@ def states(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     for name in parsed.file.allow:
         if name in table(scene) and name not in claimable(scene):
             what = f"{name!r} is no claim about states: it is drawn itself, or held by a constraint"
+            if name.endswith(".work"):
+                what = f"{name!r} is no claim about states: work is done in time, and here is none"
             yield ("allow", name), what
 
 

@@ -27,6 +27,7 @@ from ..constraints.constraint import Constraint, Numbers, row
 from ..constraints.contact import Braking, Coulomb, at_rest, foot, normal, tangent
 from ..kinematics.kinematics import Layout
 
+CLOSED = 1e-9  # of the scene's size, or of 1 rad: a gap as small is none
 AHEAD = 1e-3  # of the scene's size: feet that are nearer are passing each other
 State = Literal["open", "slides +", "slides -", "sticks", "slides", "acts", "slack"]
 REST: tuple[State, ...] = ("sticks", "slides +", "slides -")  # at slip 0: first, as in (2.89)
@@ -85,6 +86,11 @@ class Element:
         if depth:
             return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}"
         return f"{self.name} starts into the {self.plane}, with {speed:.3g} m/s"
+
+    def near(self, size: float) -> float:
+        """The gap [m, of a turn rad] that is none, in a scene of that size [m]."""
+        turns = self.normal is not None and self.normal.angular[0]
+        return CLOSED * (1.0 if turns else size)
 
     @property
     def parts(self) -> list[Constraint]:

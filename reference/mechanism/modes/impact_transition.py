@@ -30,23 +30,23 @@ def landed(
     q: Array,
     v: Array,
     *,
-    near: float = 0.0,
+    size: float = 0.0,
     rests: bool = False,
 ) -> After:
     """Returns the mode after contact i has struck the floor or another body, with its q and v.
 
-    rests: it does not rebound, as in the limit of ever lower bounces. near [m]: another open
-    contact with no larger gap strikes at the same instant, if it closes.
+    rests: it does not rebound, as in the limit of ever lower bounces. size [m]: of the scene; what
+    is open by a gap that is none strikes at the same instant, if it closes.
 
     Raises Undetermined where the impact law has no answer.
     """
     if rests and not modes.elements[i].slips:
         return _at_rest(modes, mode, i, t, q, v)
     # touching: the numbers of the closed contacts, and i; met: their rows, in the same order.
-    touching, met = _meetings(modes, mode, i, t, q, v, rests=rests, near=near)
+    touching, met = _meetings(modes, mode, i, t, q, v, rests=rests, size=size)
     still = modes.still(t, q, v, part=STILL)
     if strikes := any(m.strikes and m.normal.rate(v) < -still for m in met):
-        v, states = _struck(modes, mode, i, met, t, q, v, near)
+        v, states = _struck(modes, mode, i, met, t, q, v, size)
         flies = math.inf if rests else still  # what the last blow throws up, falls back at once
         found = [_after(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
     else:  # nothing approaches: it rests but for rounding, or rises from a gap that rounding made
@@ -63,12 +63,12 @@ def landed(
 
 
 def _struck(
-    modes: Modes, mode: str, i: int, met: list[Meeting], t: float, q: Array, v: Array, near: float
+    modes: Modes, mode: str, i: int, met: list[Meeting], t: float, q: Array, v: Array, size: float
 ) -> tuple[Array, tuple[State, ...]]:
     """Returns q̇⁺ (n,), and the state of each of the contacts in the blow. Raises Undetermined."""
     base = modes.base
     held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
-    check_alone(modes, mode, i, met, held, t, q, v, near)
+    check_alone(modes, mode, i, met, held, t, q, v, size)
     try:
         taken, states = impact(modes.M, held, met, v)
     except Several as error:
@@ -130,7 +130,7 @@ def _meetings(
     v: Array,
     *,
     rests: bool,
-    near: float,
+    size: float,
 ) -> tuple[list[int], list[Meeting]]:
     """Returns the numbers of the contacts that are closed or strike, and each one's Meeting."""
     touching, met, first = list[int](), list[Meeting](), modes.elements[i]
@@ -139,7 +139,7 @@ def _meetings(
             continue
         # A pivot has its own end of all blows, `_at_rest`; what bounces has to strike alone.
         alike = e.slips == first.slips and not (e.restitution or first.restitution or rests)
-        too = state == "open" and alike and strikes_too(e, t, q, v, near)
+        too = state == "open" and alike and strikes_too(e, t, q, v, size)
         if k == i or state != "open" or too:
             normal, tangent = _condition(e.normal, t, q, v), _condition(e.slip, t, q, v)
             back = e.restitution * normal.rate(v) if k == i and not rests else 0.0
@@ -178,18 +178,15 @@ def check_alone(
     t: float,
     q: Array,
     v: Array,
-    near: float,
+    size: float,
 ) -> None:
-    """Raises OneInstant if what strikes in contact i passes its blow on in the same instant.
-
-    near [m]: a gap that is none.
-    """
+    """Raises OneInstant if what strikes in contact i passes its blow on in the same instant."""
     first, small = modes.elements[i], ROUNDING * float(np.max(np.abs(v)))
     others = [
         (e, state)
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
         if _shares(first, e, state)
-        if state != "open" or strikes_too(e, t, q, v, near)
+        if state != "open" or strikes_too(e, t, q, v, size)
     ]
     if not others:
         return
@@ -222,8 +219,8 @@ def _shares(first: Element, e: Element, state: State) -> bool:
     return e.restitution > 0.0 or ((e.two or state == "open") and first.restitution > 0.0)
 
 
-def strikes_too(e: Element, t: float, q: Array, v: Array, near: float) -> bool:
-    """Whether an open contact closes at this instant as well; near [m]: a gap that is none."""
+def strikes_too(e: Element, t: float, q: Array, v: Array, size: float) -> bool:
+    """Whether an open contact closes at this instant as well, in a scene of that size [m]."""
     assert e.normal is not None
     small = ROUNDING * float(np.max(np.abs(v)))
-    return e.normal.f(t, q.tolist())[0] <= near and rate(e.normal, t, q, v) < -small
+    return e.normal.f(t, q.tolist())[0] <= e.near(size) and rate(e.normal, t, q, v) < -small

@@ -35,7 +35,6 @@ from .shared_friction import alike_contacts
 from .spatial_mode import SpatialMultibody
 from .unilateral import HAPPENS, OTHER, OneSided
 
-CLOSED = 1e-9  # of the scene's size: a start this close to the floor stands on it
 ROUNDS = 8 * 2.2e-16  # of the scene's size and places: by 64 a wheel's last rocks were lost
 STEEP = 2.0  # how deep a foot may be for each metre that it is behind
 PIECES = 16  # of the shortest period of a force: a guard at rest sees nothing else of time
@@ -109,16 +108,16 @@ class PlanarMechanism(Mechanism):
         if element.only:
             return (element.only,)
         if isinstance(element, OneSided):
-            return (element.began(q, v, CLOSED * self.size),)
+            return (element.began(q, v, element.near(self.size)),)
         still = self.built.still(0.0, q, v, part=STILL)
         if element.normal is not None:
-            gap = element.normal.f(0.0, q.tolist())[0]
-            if gap > CLOSED * self.size:
+            gap, near = element.normal.f(0.0, q.tolist())[0], element.near(self.size)
+            if gap > near:
                 return ("open",)
             passes = element.behind(0.0, q.tolist(), self.size) > 0.0
-            if passes and (gap < -CLOSED * self.size or rate(element.normal, 0.0, q, v) < -still):
+            if passes and (gap < -near or rate(element.normal, 0.0, q, v) < -still):
                 return ("open",)
-            if gap < -CLOSED * self.size:
+            if gap < -near:
                 raise BadStart(element.amiss(-gap, 0.0))
             rising = rate(element.normal, 0.0, q, v)
             if rising < -still:
@@ -244,16 +243,14 @@ class PlanarMechanism(Mechanism):
 
     def _lands(self, mode: str, i: int) -> Callable[[float, Array, Array], After]:
         """The impact law, and what each contact and slide may do after it."""
-        near = CLOSED * self.size
-        return lambda t, q, v: landed(self.built, mode, i, t, q, v, near=near)
+        return lambda t, q, v: landed(self.built, mode, i, t, q, v, size=self.size)
 
     def _comes_to_rest(self, mode: str, i: int) -> Callable[[float, Array, Array], After | None]:
         """The same without a rebound; None where no motion keeps the laws then."""
-        near = CLOSED * self.size
 
         def then(t: float, q: Array, v: Array) -> After | None:
             try:
-                return landed(self.built, mode, i, t, q, v, near=near, rests=True)
+                return landed(self.built, mode, i, t, q, v, size=self.size, rests=True)
             except Undetermined:
                 return None
 
@@ -268,12 +265,13 @@ class PlanarMechanism(Mechanism):
         force = max(force, self.built.small(t, q, v) * float(np.max(self.built.M)))
         slow = self.built.still(t, q, v, part=1e-9)
         for e, state in zip(self.elements, self.built.states[mode], strict=True):
-            if isinstance(e, OneSided) and e.ends(state, t, q) < -CLOSED * self.size:
+            near = e.near(self.size)
+            if isinstance(e, OneSided) and e.ends(state, t, q) < -near:
                 return f"{e.name} is {state} on the wrong side of its rest length"
             if e.normal is not None:
                 if state == "open":
                     height = e.normal.f(t, q.tolist())[0]
-                    if not e.behind(t, q.tolist(), self.size) and height < -CLOSED * self.size:
+                    if not e.behind(t, q.tolist(), self.size) and height < -near:
                         return f"{e.name} is in the {e.plane}"
                     continue
                 if forces[e.push] < -force:
