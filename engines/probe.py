@@ -17,23 +17,29 @@ LETTERS = 100  # of a version
 
 
 def why_not(point: EntryPoint, settings: tuple[str, ...]) -> str:
-    """Why it cannot be imported and made in these settings, as far as it has them; empty: it can.
+    """Why it cannot be imported and made in the settings that it has of these; empty: it can."""
+    if multiprocessing.current_process().daemon:  # a worker, and whoever started it has tried
+        return ""
+    return apart(_tried, point, settings, most=SECONDS)[1]
+
+
+def apart(call: Callable[..., Any], *given: Any, most: float) -> tuple[Any, str]:
+    """The call's value, from a process of its own that may take `most` s; or why there is none.
 
     Whatever it does meanwhile is done to another process.
     """
-    if multiprocessing.current_process().daemon:  # a worker, and whoever started it has tried
-        return ""
     here, there = multiprocessing.Pipe(duplex=False)
-    process = multiprocessing.Process(target=_try, args=(there, point, settings), daemon=True)
+    process = multiprocessing.Process(target=_answer, args=(there, call, given), daemon=True)
     process.start()
     there.close()
     try:
-        if not here.poll(SECONDS):
-            return f"it takes longer than {SECONDS:g} s"
-        return str(here.recv())
+        if not here.poll(most):
+            return None, f"it takes longer than {most:g} s"
+        value, why = here.recv()
+        return value, str(why)
     except EOFError:
         process.join()
-        return f"its process ended ({_how(process.exitcode)})"
+        return None, f"its process ended ({_how(process.exitcode)})"
     finally:
         process.kill()
         process.join()
@@ -72,23 +78,35 @@ def guarded(call: Callable[[], Any]) -> tuple[Any, BaseException | None]:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # SystemExit, and what a panic of Rust is
+        if _interrupted(error):
+            raise KeyboardInterrupt from error
         return None, error
 
 
-def _try(there: Connection, point: EntryPoint, settings: tuple[str, ...]) -> None:
-    """Make the engine with each setting in the process, and send the error, or an empty text."""
+def _interrupted(error: BaseException | None) -> bool:
+    """Whether an interruption is behind it: an extension that is being imported hides it."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
+
+
+def _answer(there: Connection, call: Callable[..., Any], given: tuple[Any, ...]) -> None:
     silence()
     try:
-        maker: Any = point.load()
-        offers = getattr(maker, "offers", ())
-        for setting in settings if isinstance(offers, tuple) else ():  # else its own words say so
-            if setting in offers:
-                engine = maker(setting, {})
-                pickle.loads(pickle.dumps(engine))
-                unsound(engine, point.name, setting)
-        there.send("")
+        there.send((call(*given), ""))
     except BaseException as error:
-        there.send(error_text(error))
+        there.send((None, error_text(error)))
+
+
+def _tried(point: EntryPoint, settings: tuple[str, ...]) -> None:
+    """Make the engine with each setting."""
+    maker: Any = point.load()
+    offers = getattr(maker, "offers", ())
+    for setting in settings if isinstance(offers, tuple) else ():  # else its own words say so
+        if setting in offers:
+            engine = maker(setting, {})
+            pickle.loads(pickle.dumps(engine))
+            unsound(engine, point.name, setting)
 
 
 def _how(code: int | None) -> str:

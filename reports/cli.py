@@ -1,7 +1,9 @@
 """The command `textmech`: run, causes, advise, check, list, show, and what compares and shows."""
 
 import sys
+from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -21,6 +23,10 @@ from .command.versions import versions
 from .show.console import prepare, say, tell
 from .show.progress import aloud
 from .system import termination as ending
+
+if TYPE_CHECKING:
+    from ..cases.case import Case
+    from ..engines.engine import Engine
 
 
 def main() -> None:
@@ -121,10 +127,11 @@ def show(case: str, name: str, settings: str | None, allow_long: bool) -> None:
     """
     from functools import partial
 
-    from ..engines import Known
-    from ..engines.probe import guarded
+    from ..engines import Known, foreign
+    from ..engines.probe import apart, guarded
     from .batch.selection import choose_cases, choose_engines
     from .show.script import script
+    from .system.limit import limit
     from .system.table_text import why
 
     known = Known([name.partition(".")[0]])  # no other is imported
@@ -140,12 +147,26 @@ def show(case: str, name: str, settings: str | None, allow_long: bool) -> None:
     engine = next((e for e in engines if e.setting == wanted), None if settings else engines[0])
     if engine is None:
         raise click.UsageError(f"{settings} holds no options of {name}")
+    if foreign(engine.name):  # which may end its process, or never answer
+        _, lost = apart(_shows, chosen[0], engine, most=limit())
+        if lost:
+            raise click.ClickException(f"{name} has no file to show: {lost}")
     text, error = guarded(partial(script, chosen[0], engine))
     if isinstance(error, CaseError | click.ClickException):
         raise error
     if error is not None:
         raise click.ClickException(f"{name} has no file to show: {why(error)}")
+    if not isinstance(text, str):
+        raise click.ClickException(f"{name} gives no text to show: a {type(text).__name__}")
     say(text, nl=False)
+
+
+def _shows(case: "Case", engine: "Engine") -> None:
+    """Asks for the file, in a process of its own; what it raises is asked for once more."""
+    from .show.script import script
+
+    with suppress(Exception):
+        script(case, engine)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from .compare.trial.trial import judged_names
 from .compare.trial.work import too_long
 from .data.coverage import countable
 from .show.progress import aloud
+from .system.limit import limit
 from .system.pool import Died, local, spread
 
 Key = tuple[str, str, str, str, str]
@@ -39,6 +40,11 @@ class _Asked:
     @property
     def name(self) -> str:
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
+    @property
+    def limit(self) -> float:
+        """How long the engine may take [s]."""
+        return limit()
 
 
 @dataclass(frozen=True)

@@ -59,10 +59,20 @@ def _endless(
             yield source.mistake((name, key), f"must be at least {SHORTEST:g} s, is {value:g}")
 
 
+def _words(options: Any) -> Iterator[str]:
+    if isinstance(options, Mapping):
+        for word, value in options.items():
+            yield str(word)
+            yield from _words(value)
+
+
 def _options(
     source: Source, key: tuple[str, str], options: Mapping[str, Any], found: dict[str, Engine]
 ) -> list[Mistake]:
     name, setting = key
+    if hidden := [word for word in _words(options) if len(word.splitlines()) > 1]:
+        what = "unknown option: a name is one line"  # and so is a mistake, as an engine tells it
+        return [source.mistake((name, word), what) for word in hidden]
     try:
         found[name] = engines.make(name, setting, options)
     except engines.Broken as broken:

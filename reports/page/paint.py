@@ -5,7 +5,7 @@ The page's style and script have the same: `heat.css`, `plot.js`.
 
 from collections.abc import Iterable
 from html import escape
-from io import StringIO
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import matplotlib
 from matplotlib.figure import Figure
 
 from ..data.ownership import OURS
+from ..system.replace import replace
 from .column import Column
 
 INK = "#010203"  # replaced by the colour of the page's text
@@ -68,8 +69,13 @@ def svg(figure: Figure, name: str) -> str:
 
 
 def save(figure: Figure, file: Path) -> None:
-    """As a file of its own, on white, that says whose it is (`ours` reads it). Raises OSError."""
+    """As a file of its own, on white, that says whose it is (`ours` reads it).
+
+    Raises OSError: then what stood there stands there.
+    """
     vector = file.suffix.lower() == ".svg"
     dated = UNDATED | {"Creator": OURS} if vector else {"Software": OURS}
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": file.stem}):
-        figure.savefig(file, dpi=DPI, metadata=dated)
+        drawn = BytesIO()
+        figure.savefig(drawn, format=file.suffix[1:].lower(), dpi=DPI, metadata=dated)
+    replace(file.parent, {file.name: drawn.getvalue()})

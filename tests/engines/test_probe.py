@@ -109,6 +109,19 @@ def test_what_it_says_of_itself_is_looked_at(is_: str, strange: Path) -> None:
     assert MADE[is_] in why()
 
 
+@pytest.mark.mutant("an interruption during an import is an engine that is broken")
+def test_an_interruption_that_an_import_hides_is_one() -> None:
+    def imports() -> None:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as error:
+            raise ImportError("initialization failed") from error
+
+    with pytest.raises(KeyboardInterrupt):
+        probe.guarded(imports)
+    assert isinstance(probe.guarded(lambda: 1 / 0)[1], ZeroDivisionError)
+
+
 def test_what_it_prints_is_not_in_the_output(
     strange: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -132,7 +132,7 @@ def blow(tmp_path: Path, make: Any, seed: int, *, order: int = 0, mirrored: bool
     i = [e.name for e in built.elements].index("hit")
     states: Any = tuple("open" if e.name == "hit" else "sticks" for e in built.elements)
     mode = built.name(states)
-    _, met = landing._meetings(built, mode, i, 0.0, q, v, rests=False, near=0.0)
+    _, met = landing._meetings(built, mode, i, 0.0, q, v, rests=False, size=0.0)
     return Blow(built.M, [], met, v, columns)
 
 

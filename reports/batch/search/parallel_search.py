@@ -6,6 +6,7 @@ from typing import Generic, TypeVar
 
 from .... import engines
 from ....engines.engine import Plan, Tunable
+from ...compare.trial.answers import tunable
 from ...compare.trial.start import first
 from ...compare.trial.trial import planned
 from ...system.pool import Died
@@ -96,8 +97,6 @@ def _asked(pair: Pair) -> None:
     ways = planned(engine, scene, start)
     native = any(isinstance(way, Plan) and way.realised == "native" for way in ways)
     if isinstance(engine, Tunable) and native:
-        options = engine.recipe(scene, start)
-        engine.knobs(scene, start)
+        options = tunable(engine, scene, start)
         for step in engine.steps:
-            float(engine.cost(options, step, scene))
-            engine.snippet(scene, start, options, step)
+            Candidate.of(options, step).engine(engine.name)  # it takes its own recipe, and a step

@@ -14,6 +14,7 @@ from ....cases.scene.motion import Motion
 from ....cases.scene.observe import observe
 from ....cases.scene.quantity import table
 from ....cases.trajectory import Array, Trajectory
+from ..trial.answers import moved
 from ..trial.trial import Trial
 
 # A plain number: one that a person asks for, and on which no verdict hangs.
@@ -55,10 +56,11 @@ def plain(trial: Trial) -> list[Plain]:
     touching = (*scene.contacts, *scene.pairs)
     asked = [f"{name}.{field}" for name in touching for field in ("normal", "tangent")]
     wanted = tuple(name for name in asked if name in table(scene) and name not in plan.withheld)
-    motion = trial.engine.run(
-        scene, trial.start, trial.case.times, trial.step, plan, reactions=wanted, record=True
+    times = trial.case.times
+    found = trial.engine.run(
+        scene, trial.start, times, trial.step, plan, reactions=wanted, record=True
     )
-    return list(numbers(scene, trial.reference, motion))
+    return list(numbers(scene, trial.reference, moved(found, scene, times)))
 
 
 def numbers(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator[Plain]:

@@ -1,5 +1,7 @@
 """Checks each answer of an engine before it is believed: the engine may be anybody's."""
 
+import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
@@ -8,8 +10,10 @@ from typing import Any, get_args
 import numpy as np
 
 from ....cases.scene import Scene
+from ....cases.scene.states import MASS_MATRIX, coordinates
 from ....cases.trajectory import Array, Trajectory
-from ....engines.engine import Engine, Plan, Realised, Refusal, Start
+from ....engines.engine import Diverged, Engine, Plan, Realised, Refusal, Start, Tunable
+from ....engines.knobs import Knob, Options
 from ...system.table_text import spelled
 
 WAYS = get_args(Realised)
@@ -61,9 +65,49 @@ def moved(found: Any, scene: Scene, times: Array) -> Trajectory:
         raise BadAnswer("run gives other times than were asked for")
     _states("states", found, scene)
     if found.record is not None:
-        if not isinstance(found.record, Trajectory):
-            raise BadAnswer(f"record should be a trajectory, is {_kind(found.record)}")
-        _states("states of the record", found.record, scene)
+        _recorded(found.record, scene, times)
+    return found
+
+
+def _recorded(record: Any, scene: Scene, times: Array) -> None:
+    """Raises BadAnswer for another record than one from the first sample to the last."""
+    if not isinstance(record, Trajectory):
+        raise BadAnswer(f"record should be a trajectory, is {_kind(record)}")
+    steps = record.times
+    _rows("times of the record", steps, (steps.size if isinstance(steps, np.ndarray) else 0,))
+    if not (len(steps) > 1 and np.all(np.diff(steps) > 0.0)):  # not of NaN
+        raise BadAnswer("times of the record should rise from step to step")
+    ends = np.abs(np.array([steps[0] - times[0], steps[-1] - times[-1]]))
+    if not np.all(ends <= SAME * times[-1]):
+        raise BadAnswer("the record should last from the first sample to the last")
+    _states("states of the record", record, scene)
+    for body, rows in record.states.items():
+        if not np.all(finite := np.all(np.isfinite(rows), axis=1)):
+            at = float(steps[np.argmin(finite)])
+            raise Diverged(f"{body} is not finite in the record from t = {at:.4g} s on")
+
+
+def claimed(found: Any, wanted: Sequence[str], scene: Scene, count: int) -> dict[str, Array]:
+    """The wanted quantities of so many states. Raises BadAnswer where one is not told.
+
+    Whatever else is told is nothing that was asked for.
+    """
+    told, entries = by_quantity(found), len(coordinates(scene)) ** 2
+    for name in wanted:
+        if name not in told:
+            raise BadAnswer(f"answer tells nothing of {name}, and not why")
+        if isinstance(told[name], str):
+            raise BadAnswer(f"answer withholds {name} of all states, and told it of one")
+        shape: tuple[int, ...] = (count * entries,) if name == MASS_MATRIX else (count,)
+        turned = name.rpartition(".")[2] == "attitude"
+        _rows(f"{name} of {count} states", told[name], (count, 4) if turned else shape)
+    return {name: told[name] for name in wanted}
+
+
+def by_quantity(found: Any) -> Mapping[str, Any]:
+    """An answer about states. Raises BadAnswer where it is none."""
+    if not isinstance(found, Mapping):
+        raise BadAnswer(f"answer should tell each quantity by its name, tells {_kind(found)}")
     return found
 
 
@@ -100,6 +144,32 @@ def read_back(found: Any, known: Mapping[str, float]) -> dict[str, float]:
     if not found:
         raise BadAnswer("measure reads no number back: nothing shows that the physics is equal")
     return {name: float(number) for name, number in found.items()}
+
+
+def tunable(engine: Tunable, scene: Scene, start: Start) -> Options:
+    """The engine's recipe. Raises BadAnswer where one of its words on tuning is not what it is."""
+    options: Any = engine.recipe(scene, start)
+    knobs: Any = engine.knobs(scene, start)
+    if not isinstance(options, Mapping) or not _plain(options):
+        raise BadAnswer(f"recipe should be options as a file has them, is {_kind(options)}")
+    if not isinstance(knobs, Sequence) or not all(isinstance(knob, Knob) for knob in knobs):
+        raise BadAnswer(f"knobs should be a list of knobs, is {_kind(knobs)}")
+    for step in engine.steps:
+        cost: Any = engine.cost(options, step, scene)
+        if not isinstance(cost, Real) or not 0.0 < float(cost) < math.inf:
+            raise BadAnswer(f"cost should be a number above 0, is {spelled(repr(cost), 50)}")
+        text: Any = engine.snippet(scene, start, options, step)
+        if not isinstance(text, str):
+            raise BadAnswer(f"snippet should be text, is {_kind(text)}")
+    return options
+
+
+def _plain(options: Any) -> bool:
+    try:
+        json.dumps(options)
+    except (TypeError, ValueError):
+        return False
+    return True
 
 
 def _kind(value: Any) -> str:

@@ -18,7 +18,7 @@ from ...system.limit import limit
 from ...system.table_text import spelled
 from ..events.states import engine_states
 from ..events.times import engine_events
-from .answers import moved
+from .answers import claimed, moved
 from .ladder import wanted_reactions
 from .work import pace
 
@@ -106,8 +106,9 @@ def _answers(rung: Rung) -> Samples:
     assert case.states is not None
     assert isinstance(engine, Claims)
     drawn = case.states.drawn(case.scene)
-    found = engine.answer(case.scene, rung.start, drawn, tuple(rung.bounds))
-    samples = {name: rows for name, rows in found.items() if not isinstance(rows, str)}
+    wanted = tuple(rung.bounds)
+    found = engine.answer(case.scene, rung.start, drawn, wanted)
+    samples = claimed(found, wanted, case.scene, case.samples)
     for name, rows in samples.items():
         if not np.all(np.isfinite(rows)):
             raise Diverged(f"{name} is not finite")

@@ -7,6 +7,7 @@ from ....cases.mistake import CaseError
 from ....cases.trajectory import Array
 from ....engines.engine import Claims, Engine, Plan, Refusal, Start
 from ...system.table_text import spelled, why
+from .answers import by_quantity
 from .run import Rung
 from .trial import Trial, planned
 
@@ -42,7 +43,8 @@ def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]
     if isinstance(way, Refusal):
         return (way,)
     told = engine.answer(case.scene, start, _drawn(case, 1), tuple(case.allow))
-    whys = {name: spelled(what) for name, what in told.items() if isinstance(what, str)}
+    because = {name: what for name, what in by_quantity(told).items() if isinstance(what, str)}
+    whys = {name: spelled(what) for name, what in because.items()}
     return (Plan("native", held=(), withheld=whys),)
 
 

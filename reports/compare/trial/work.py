@@ -1,16 +1,23 @@
 """The steps that a run asks of the engines, counted before any is taken."""
 
+import multiprocessing
+import threading
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
 
 from ....cases.case import Case
 from ....cases.language.check.cost import LIMIT, about
 from ....cases.language.check.work import GO_ON
 from ....cases.mistake import Mistake
+from ....cases.scene import Scene
+from ....engines import foreign
 from ....engines.engine import Engine, Paced
-from ....engines.probe import guarded
+from ....engines.probe import apart, guarded
 from .ladder import RUNGS_DOWN, judged_step
 
 STEPS = 20_000_000  # of an engine for a file, all of its variants
+PATIENCE = 5.0  # s: an answer that takes longer is none
 STEP, BODY = 25e-6, 1.5e-6  # s: what a step takes, and for each body, if an engine does not say
 KEPT = 5_000_000  # rows of bodies that a run with events holds: 250 MB
 
@@ -60,8 +67,31 @@ def pace(case: Case, engine: Engine) -> float:
     usual = STEP + BODY * len(case.scene.bodies)
     if not isinstance(engine, Paced):
         return usual
-    told, _ = guarded(lambda: float(engine.pace(case.scene)))  # it may be anybody's
+    name = engine.name, engine.setting, engine.version
+    told = _told(_Asked((*name, case.name, case.source.file), engine, case.scene))
     return told if told is not None and 0.0 < told < LIMIT else usual
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """Of whom, and of which case: an engine is anybody's, and cannot tell whether it is another."""
+
+    of: tuple[str, ...]
+    engine: Paced = field(compare=False)
+    scene: Scene = field(compare=False)
+
+
+@lru_cache(10_000)  # of somebody else's engine a process is asked, and each run asks again
+def _told(asked: _Asked) -> float | None:
+    if not foreign(asked.of[0]) or multiprocessing.current_process().daemon:
+        return guarded(lambda: _number(asked))[0]
+    if threading.current_thread() is not threading.main_thread():
+        return None  # two threads that look at children lose one's end
+    return apart(_number, asked, most=PATIENCE)[0]
+
+
+def _number(asked: _Asked) -> float:
+    return float(asked.engine.pace(asked.scene))
 
 
 def _steps(case: Case, engine: Engine) -> float:

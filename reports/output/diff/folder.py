@@ -111,7 +111,7 @@ def _opened(name: str, path: Path) -> Folder:
                 mistakes += error.mistakes
     for table in tables.values():
         mistakes += [*_unreadable(table)] or [*_doubted(table, written)]
-    mistakes += _mixed(tables, written)
+    mistakes += [*_mixed(tables, written), *_cut(path, written)]
     if mistakes:
         raise CaseError(mistakes)
     return Folder(name, tables, written[ERRORS.name].run)
@@ -186,6 +186,15 @@ def _mixed(tables: Mapping[str, Table], written: Mapping[str, Written]) -> Itera
             if (other := written[name].run) != ours:
                 what = f"of run {other}, and {ERRORS.name} beside it of run {ours}"
                 yield _mistake(tables[name].path, f"{what}: run both again")
+
+
+def _cut(path: Path, written: Mapping[str, Written]) -> Iterator[Mistake]:
+    """The known files of the run that are not there any more."""
+    run = written[ERRORS.name].run if ERRORS.name in written else None
+    for name in sorted({*KNOWN} & {*written}):
+        if written[name].run == run and not (path / name).exists():
+            what = f"is not there, and {runs.NAME} names it: the folder was cut; run it again"
+            yield _mistake(path / name, what)
 
 
 def _unreadable(table: Table) -> Iterator[Mistake]:

@@ -112,6 +112,14 @@ def test_files_of_two_runs_are_not_compared(old: Path, new: Path) -> None:
     assert "events.csv: of run abc, and tolerance.csv beside it" in said(old, new)
 
 
+@pytest.mark.mutant("a folder without one of its tables is compared")
+@pytest.mark.parametrize("lost", ["steps.csv", "convergence.csv", "events.csv"])
+def test_a_folder_that_was_cut_is_not_compared(lost: str, old: Path, new: Path) -> None:
+    (new / lost).unlink()
+    what = f"{lost}: is not there, and runs.csv names it: the folder was cut; run it again"
+    assert what in said(old, new)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
