@@ -94,6 +94,13 @@ def certify(
     checks += as_the_file_says(case, written, generated, motion, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, followed), 0.0))
+    if generated.beside is not None:  # no bound but the case's: another motion of as good a start
+        doing("the motion of another start")
+        other = follow(generated.beside, times)
+        found["another start"] = other
+        others["another start"] = replace(
+            built, system=generated.beside, followed=other
+        ).trajectory(times)
     late = worst([late, alone, *(_apart(followed, other) for other in found.values())])
     worked = partial(work_errors, case, motion, written)
     return (*checks, *errors(case, motion, others, late, worked))

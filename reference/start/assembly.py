@@ -6,6 +6,7 @@ Positions by Newton's method from guesses, rates by linear algebra; in the plane
 import numpy as np
 
 from ...cases.case import Case
+from ...cases.mistake import CaseError
 from ...cases.scene.frame import SPACE
 from ..mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from ..system import Array, Pose
@@ -16,16 +17,50 @@ from .rates import rates
 from .search import RANK
 from .spatial_closure import SpatialClosure
 
+EPS = float(np.finfo(np.float64).eps)
+ROUNDINGS = 8.0  # of places, in one equation: a sum of as many terms
+KNOWN = 1e-13  # rad or sizes: as well as the start of a chain of 100 is; shipped ones are better
 SHORT = 1e-9  # of the mechanism's size: a rod of that length has no direction
 
 
 def mechanism(case: Case) -> Mechanism:
     """The mechanism of a case's scene at its start. Raises CaseError as `assemble` does."""
-    q, v = assemble(case)
+    closure = closure_of(case)
+    q, v = _assembled(closure)
+    found = _at(case, closure, q, v)
+    if (other := _as_good(closure, q, v)) is not None:
+        found.beside = _at(case, closure, *other)
+    return found
+
+
+def _at(case: Case, closure: PlanarClosure | SpatialClosure, q: Array, v: Array) -> Mechanism:
     if case.scene.frame is SPACE:
         return SpatialMechanism(case.scene, (q, v))
     inner = [force.begins for force in case.scene.inner().values()]
-    return PlanarMechanism(case.scene, (np.append(q, inner), v), size_of(case))
+    return PlanarMechanism(case.scene, (np.append(q, inner), v), closure.size)
+
+
+def _as_good(
+    closure: PlanarClosure | SpatialClosure, q: Array, v: Array
+) -> tuple[Array, Array] | None:
+    """Another start, as far off along what is determined worst as rounding of the equations allows.
+
+    None where that is not far: each answer to a case begins at its one start, and so none shows it.
+    """
+    rows = closure.equations(q)[1][:, closure.free]
+    if not rows.size:
+        return None
+    _, sizes, ways = np.linalg.svd(rows, full_matrices=False)
+    far = ROUNDINGS * EPS * closure.rounding / float(sizes[-1])
+    if far < KNOWN:
+        return None
+    change = np.zeros(closure.n)
+    change[closure.free] = far * ways[-1]
+    there = closure.moved(q, closure.units * change)
+    try:
+        return there, rates(closure, there)
+    except CaseError:  # what is given holds at the other place only
+        return there, v
 
 
 def closure_of(case: Case) -> PlanarClosure | SpatialClosure:
@@ -44,12 +79,15 @@ def assemble(case: Case) -> tuple[Array, Array]:
     Raises CaseError if the constraints are not independent, the mechanism cannot be assembled
     or can be in two ways, or a coordinate or rate stays undetermined.
     """
-    closure = closure_of(case)
+    return _assembled(closure_of(case))
+
+
+def _assembled(closure: PlanarClosure | SpatialClosure) -> tuple[Array, Array]:
     q = positions(closure)
     _long(closure, q)
     part = closure.dependent(q, RANK)
     if part is not None:
-        raise messages.dependent(case, part)
+        raise messages.dependent(closure.case, part)
     return q, rates(closure, q)
 
 

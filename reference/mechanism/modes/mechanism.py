@@ -45,9 +45,13 @@ class BadStart(Exception):
 
 
 class Mechanism(System):
-    """A system that is made from a scene. base: what holds in all of its modes."""
+    """A system that is made from a scene. base: what holds in all of its modes.
+
+    beside: the same at another start that is as good, where that is far off; else None.
+    """
 
     base: Multibody
+    beside: "Mechanism | None" = None
 
     def leeway(self, mode: str, t: float, q: Array, v: Array) -> Leeway | None:
         """The forces that the laws allow in a mode here; None where there is one of each."""
