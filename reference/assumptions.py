@@ -3,6 +3,7 @@
 And what only its start can: that a hand-written system starts as the scene does.
 """
 
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
@@ -28,6 +29,8 @@ from .system import Pose, System
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
 NOISE = 1e-14  # of what carries it through its own size: rounding, where nothing has a size
 OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
+HAIR = 1e-9  # of a coefficient of friction
+TURNS = 5  # of Newton: twice the digits each
 ROUNDING = 1e-12  # of the normal force: a wheel that needs no friction rolls without any
 START = 1e-12  # of the sizes: two derivations of one start differ by rounding
 PLACES = ("x", "y", "z", "attitude", "attitude", "attitude", "attitude")
@@ -186,7 +189,6 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         if not np.any(fails):
             yield from _slipping_between(case, motion, contact, normal, carried)
             continue
-        stands = np.full(len(normal), True) if carried is normal else normal > 0
         first = int(np.argmax(fails))
         t = motion.times[first]
         if carried[first] <= 0 or normal[first] < 0:
@@ -194,7 +196,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         else:
             what = (
                 f"{doing} is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
-                f"it would slip; {_needed(normal[stands], tangent[stands], contact.body, doing)}"
+                f"it would slip; {_needed(case, motion, contact, normal, carried)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
 
@@ -203,21 +205,38 @@ def _slipping_between(
     case: Case, motion: Trajectory, contact: Contact, normal: Array, carried: Array
 ) -> Iterator[Mistake]:
     """Yields a mistake where it holds at both ends of a step, and not in it."""
-    doing, what = "rolling" if contact.ideal == "rolling" else "pivoting", ""
-    bends = case.scene.corners()
-    needs = contact.friction
-    for rows in smooth(motion, bends):
+    doing = "rolling" if contact.ideal == "rolling" else "pivoting"
+    path = ("scene", "contacts", contact.name, "ideal")
+    if pulls := _pulls(case, motion, carried):
+        what = f"the floor would have to pull at t = {min(pulls):.3g} s: {contact.body} leaves it"
+        yield case.mistake(path, what)
+    elif slips := _dips_of_friction(case, motion, contact.name, normal, contact.friction):
+        what = (
+            f"{doing} is not possible with friction {contact.friction:.6g}: at t = "
+            f"{min(t for t, _ in slips):.3g} s it would slip; "
+            f"{_needed(case, motion, contact, normal, carried)}"
+        )
+        yield case.mistake(path, what)
+
+
+def _pulls(case: Case, motion: Trajectory, carried: Array) -> list[float]:
+    """When [s] between two steps the floor would have to pull."""
+    parts = smooth(motion, case.scene.corners())
+    return [t for rows in parts for t, _ in dips(motion.times[rows], carried[rows])]
+
+
+def _dips_of_friction(
+    case: Case, motion: Trajectory, contact: str, normal: Array, mu: float
+) -> list[tuple[float, float]]:
+    """When [s] between two steps that coefficient is not enough, and which would be."""
+    found = list[tuple[float, float]]()
+    for rows in smooth(motion, case.scene.corners()):
         times, pushes = motion.times[rows], normal[rows]
-        for side in _sides(motion, contact.name):
-            for t, low in dips(times, contact.friction * pushes - side[rows]):
-                needs = max(needs, contact.friction - low / float(np.interp(t, times, pushes)))
-                at = what.partition(";")[0] or f"at t = {t:.3g} s it would slip"
-                what = f"{at}; {doing} all the way needs {needs:.6g}"
-        for t, _ in dips(times, carried[rows]):
-            what = what or f"the floor would have to pull at t = {t:.3g} s"
-    if what:
-        what = f"{doing} is not possible with friction {contact.friction:.6g}: {what}"
-        yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+        for side in _sides(motion, contact):
+            for t, low in dips(times, mu * pushes - side[rows]):
+                push = float(np.interp(t, times, pushes))
+                found.append((t, mu - low / push if push > 0.0 else mu))
+    return found
 
 
 def _sides(motion: Trajectory, contact: str) -> tuple[Array, ...]:
@@ -253,10 +272,25 @@ def _along_floor(motion: Trajectory, contact: str) -> Array:
     return np.hypot(*(motion.reactions[f"{contact}.{axis}"] for axis in ("fx", "fy")))
 
 
-def _needed(normal: Array, tangent: Array, body: str, doing: str) -> str:
-    if np.any(normal <= 0):
-        return f"later {body} would even leave the floor"
-    return f"{doing} all the way needs {np.max(tangent / normal):.3g}"
+def _needed(case: Case, motion: Trajectory, contact: Contact, normal: Array, carried: Array) -> str:
+    """Which coefficient would be enough, at the steps and between them; or that none is."""
+    stands = np.full(len(normal), True) if carried is normal else normal > 0
+    pushes, rubs = normal[stands], _along_floor(motion, contact.name)[stands]
+    if np.any(pushes <= 0) or _pulls(case, motion, carried):
+        return f"elsewhere {contact.body} would even leave the floor"
+    # A hair more than at any step: between two steps only what is positive at both can dip.
+    enough = max(contact.friction, (1 + HAIR) * float(np.max(rubs / pushes)))
+    for _ in range(TURNS):  # Newton's method, from below
+        more = _dips_of_friction(case, motion, contact.name, normal, enough)
+        enough = max([enough, *(mu for _, mu in more)])
+    doing = "rolling" if contact.ideal == "rolling" else "pivoting"
+    return f"{doing} all the way needs {_no_less(enough)}"
+
+
+def _no_less(value: float) -> str:
+    """The number in four digits, rounded up: with one that is rounded down it would slip still."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 3)
+    return f"{math.ceil(value / digit - ROUNDING) * digit:.4g}"
 
 
 def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:

@@ -22,6 +22,7 @@ SLOW = 0.01  # contraction of the iteration beyond which the next step gets a ne
 MANY = 200  # columns: such a Jacobian costs as much as some thirty iterations
 PATIENT = 0.1  # and so does not pay before this contraction, where they are twice as many
 ROUNDING = 100.0 * EPS  # corrections this small that no longer shrink are rounding
+BESIDE = 1e4  # times its own size: what is smaller beside the others is moved by no more of them
 FAR = 3.0  # do not extrapolate the stages to a step this many times longer than the last
 NEAR = 1e-12  # nor to one as much shorter: its nodes are the last one's end but for rounding
 
@@ -96,6 +97,8 @@ class Radau:
             size = sizes(peak, self.tolerance)
             # A state at rest at the origin has no size of its own to take a small part of.
             size = size if size.max() > 1e-200 else np.ones_like(y)
+            # A place of 1e-10 m beside a turn of 1e12 rad/s: a part of the latter is no small step.
+            size = np.where(peak > 0.0, np.minimum(size, BESIDE * peak), size)
             self._jacobian = difference_jacobian(self.f, t, y, self._slope, size)
             self.evaluations += len(y)
         else:

@@ -185,3 +185,44 @@ allow: {{b.x: 1.0e-3}}
     mistake = refused(scenes.typed(tmp_path, text))
     assert (mistake.where, mistake.what) == ("rests", "b.x moves by 0.2 m")
     assert solve(scenes.typed(tmp_path, text.replace("x: 1.1", "x: 1.0"))).holds
+
+
+PUSHED = """\
+scene:
+  space: 3
+  bodies: {b: {sphere: {mass: 1.0, radius: 0.1}}}
+  contacts: {c: {between: [b, ground.floor], friction: MU, ideal: rolling}}
+  forces: {p: {push: b.center, sine: {amplitude: [0.3, 0, 9.807], angular_frequency: 3.0}}}
+initial: {b: {x: 0, y: 0, attitude: {axis: [0, 0, 1], angle: 0}, omega: [0, 1, 0]}}
+allow: {b.x: 1.0}
+"""
+TOP = """\
+scene:
+  space: 3
+  bodies:
+    b: {rigid: {mass: 1.0, inertia: [0.02, 0.02, 0.004, 0, 0, 0]}, points: {tip: [0, 0, -0.25]}}
+  contacts: {c: {between: [b.tip, ground.floor], friction: MU, ideal: pivot}}
+initial: {b: {tip: [0, 0, 0], attitude: {axis: [0, 1, 0], angle: 0.3}, omega: [0, 0.5, 0.5]}}
+allow: {b.x: 1.0}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("of a floor that pulls between two steps it is said what friction is enough")
+@pytest.mark.parametrize("mu", ["50", "58", "1.0e+5"])
+def test_no_friction_is_enough_where_the_floor_would_pull(mu: str, tmp_path: Path) -> None:
+    """The push is more than the weight for 0.02 s, and less at every step."""
+    case = scenes.typed(tmp_path, PUSHED.replace("MU", mu), tail=scenes.tail(2.0, 3))
+    what = "the floor would have to pull at t = 0.524 s: b leaves it"
+    assert refused(case).what == what
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("the friction that is enough is that of the steps")
+def test_the_friction_that_is_said_to_be_enough_is(tmp_path: Path) -> None:
+    """70.28 at 0.3454 s, between two steps, by the motion at 6,001 samples."""
+    tail = scenes.tail(0.6, 7)
+    what = refused(scenes.typed(tmp_path, TOP.replace("MU", "50"), tail=tail)).what
+    needs = what.partition("pivoting all the way needs ")[2]
+    assert 70.28 <= float(needs) <= 70.29
+    assert solve(scenes.typed(tmp_path, TOP.replace("MU", needs), tail=tail)).holds

@@ -85,3 +85,16 @@ def test_a_step_next_to_none_is_a_step(part: float):
     method.begin(h, there)
     moved = method.attempt(h, there, part * h, size)
     np.testing.assert_allclose(moved, part * h * van_der_pol(h, there), rtol=1e-6)
+
+
+@pytest.mark.mutant("a Jacobian by steps as long as another unit's")
+def test_a_small_state_beside_a_large_one_has_a_jacobian_of_its_own() -> None:
+    """A molecule's place [m] and turn [rad/s], both damped: x = x₀ e⁻ˢ, 22 powers of ten apart."""
+
+    def f(t: float, y: Vector) -> Vector:
+        x, w = y
+        return np.array([-1e13 * x * (1 + (x / 4e-10) ** 2), -2e13 * w])
+
+    found = radau(f, [0.0, 4e-13], [4e-10, 1e12])
+    assert found.y[-1, 0] == pytest.approx(4e-10 / np.sqrt(2 * np.exp(8.0) - 1), rel=1e-8)
+    assert found.evaluations < 2000
