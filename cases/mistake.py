@@ -40,8 +40,9 @@ class Mistake:
         if not self.text.strip():
             return head
         start = max(0, self.column - 60) if len(self.text) > 100 else 0  # a window on a long line
-        line = "".join(c if unseen(c) is None else " " for c in self.text)  # the caret stays below
-        return f"{head}\n    {line[start : start + 100]}\n    {' ' * (self.column - 1 - start)}^"
+        window = self.text[start : start + 100]
+        line = "".join(c if unseen(c) is None else " " for c in window)  # the caret stays below
+        return f"{head}\n    {line}\n    {' ' * (self.column - 1 - start)}^"
 
 
 class CaseError(Exception):

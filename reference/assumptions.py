@@ -26,6 +26,7 @@ from .motion.follow import Followed, Touch
 from .start.assembly import size_of
 from .system import Pose, System
 
+HELD = 1e-12  # of a place: so far what is held drifts, or trembles by rounding
 STILL = 1e-9  # of the motion's size: smaller changes are no motion
 NOISE = 1e-14  # of what carries it through its own size: rounding, where nothing has a size
 OPEN = 1e-9  # of the mechanism's size: nearer than that, a contact starts closed
@@ -309,7 +310,10 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)]), initial=0.0),
         )
         moved = _moved(samples)
-        still = moved <= max(STILL * size, NOISE * _floor(case, quantity.unit))
+        least = STILL * size
+        if quantity.unit == "m" and samples.ndim == 1:  # where the scene stands is no motion
+            least = max(STILL * _spread(motion, case), HELD * size)
+        still = moved <= max(least, NOISE * _floor(case, quantity.unit))
         if case.rests and not claimed:
             if not still:
                 what = f"{name} moves by {moved:.3g} {quantity.unit}"
@@ -321,6 +325,13 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         elif claimed and not still:
             what = f"moves by {moved:.3g} {quantity.unit}"
             yield case.mistake(("stays", case.stays.index(name)), what)
+
+
+def _spread(motion: Trajectory, case: Case) -> float:
+    """How far [m] any body goes along an axis."""
+    columns = case.scene.frame.alike("m")
+    each = (np.ptp(states[:, columns], axis=0) for states in motion.states.values())
+    return float(np.max([np.max(far, initial=0.0) for far in each], initial=0.0))
 
 
 def _floor(case: Case, unit: str) -> float:

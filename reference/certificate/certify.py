@@ -21,7 +21,7 @@ from ..integrators.now import doing
 from ..integrators.radau import radau_table
 from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
-from ..motion.follow import TOLERANCE, Followed, either, follow
+from ..motion.follow import TOLERANCE, Change, Followed, either, follow
 from ..start.assembly import size_of
 from ..system import Array, Mode, System
 from .agreement import Check, difference, times_apart, worst
@@ -83,7 +83,8 @@ def certify(
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", compared(motion, others["closed form"]), own))
     late = apart * float(times[-1] - times[0])
-    alone = max(system.blurred, untimed(system, followed))
+    ends = any(map(_rests, followed.changes))
+    alone = max(system.blurred if ends else 0.0, untimed(system, followed))
     apart = max(_looser(late), 2 * alone)  # either way, two answers
     checks += _events(system, followed, found, apart, float(times[-1]))
     doing("the laws at every sample", float(times[0]), float(times[-1]))
@@ -104,6 +105,12 @@ def certify(
     late = worst([late, alone, *(_apart(followed, other) for other in found.values())])
     worked = partial(work_errors, case, motion, written)
     return (*checks, *errors(case, motion, others, late, worked))
+
+
+def _rests(change: Change) -> bool:
+    """Whether something stops and stays: what only turns round passes its stop with a slope."""
+    part, _, word = (change.name or "").rpartition(" ")
+    return word == "stops" and f"{part} slides" not in change.mode_after
 
 
 def _looser(apart: float) -> float:

@@ -38,7 +38,7 @@ def errors(
     summed = worked(sums) if sums and worked else {}
     times = {name: q for name, q in event_quantities(case.events).items() if q.field == "time"}
     for name in case.allow:
-        least, at = _least(case, name), at_event(name, case.events)
+        bar, at = least(case, name), at_event(name, case.events)
         if name in known:
             error, unit = _apart(case, motion, others, name), known[name].unit
             error += summed.get(name, 0.0)
@@ -55,8 +55,8 @@ def errors(
             unit = known[at.quantity].unit
         else:
             continue  # a count: the changes of mode are compared by name and number
-        if least is not None:
-            yield Check(f"{ERROR}{name}", error / least, SHARE, error, unit)
+        if bar is not None:
+            yield Check(f"{ERROR}{name}", error / bar, SHARE, error, unit)
 
 
 def _piled(endless: Sequence[Array]) -> float:
@@ -82,6 +82,8 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
     found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
     size, quantity = worst(np.abs(own).ravel()), case.quantities[name]
     columns = case.scene.frame.alike(quantity.unit)
+    if case.states is not None and quantity.unit == "m":  # a sum along the chain, which may cancel
+        size = max(size, _summed(case))
     if quantity.kind != "force" and quantity.part not in case.scene.bodies:
         # How far places are apart is known as well as they are, which may be far from the origin.
         size = worst(
@@ -90,7 +92,14 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
     return worst([EPS * size, *map(worst, found)])
 
 
-def _least(case: Case, name: str) -> float | None:
+def _summed(case: Case) -> float:
+    """All lengths [m] of which a place of a chain is the sum."""
+    points = [point.at for point in case.scene.points.values()]
+    points += [at for body in case.scene.bodies.values() for at in body.points.values()]
+    return float(sum(np.max(np.abs(at)) for at in points))
+
+
+def least(case: Case, name: str) -> float | None:
     """The smallest `allow` or `reach` of a quantity, or None if nothing bounds it."""
     return min((bar for _, bar in _bars(case, name)), default=None)
 
@@ -113,7 +122,8 @@ def beyond(case: Case, checks: Sequence[Check]) -> list[Mistake]:
         assert check.certified is not None
         name = check.name.removeprefix(ERROR)
         summed = name in case.quantities and case.quantities[name].field in WORK
-        cure = "take more samples" if summed else "a shorter duration"
+        cure = ", or take more samples" if summed else ", or a shorter duration"
+        cure = cure if case.states is None else ""
         found += [
             case.mistake(path, _asks(bar, check.certified, check.unit, cure))
             for path, bar in _bars(case, name)
@@ -139,9 +149,8 @@ def _asks(bar: float, certified: float, unit: str, cure: str) -> str:
             "often it happens; give a shorter duration"
         )
     digit = 10.0 ** math.floor(math.log10(certified / SHARE))
-    least = math.ceil(certified / SHARE / digit) * digit
+    enough = math.ceil(certified / SHARE / digit) * digit
     return (
         f"{bar:.3g} asks more than can be certified: the reference knows this to "
-        f"{certified:.1e} {unit}, and that may be {SHARE:.0%} of it; give at least {least:.0e}, "
-        f"or {cure}"
+        f"{certified:.1e} {unit}, and that may be {SHARE:.0%} of it; give at least {enough:.0e}{cure}"
     )

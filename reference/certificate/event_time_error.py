@@ -31,6 +31,7 @@ DIP = 3.0
 # and before an event so closely.
 LISTENED = (0.0, 0.25, 0.5, 0.75)
 SPACED = (1.0, 0.61, 0.37)
+FIRST = 1  # from that step on: from rest a law with a root has no smooth slope beside its rounding
 LINE = range(DIFFERENCED)
 
 
@@ -58,7 +59,8 @@ def _added(mode: Mode, rows: Sequence[Kept]) -> Array:
     """
     steps, f, loud = np.diff([t for t, *_ in rows]), slope(mode), 0.0 * rows[0][2]
     lasting = np.flatnonzero(steps)
-    for k in lasting[[int(part * len(lasting)) for part in LISTENED if len(lasting)]]:
+    asked = {min(max(FIRST, int(part * len(lasting))), len(lasting) - 1) for part in LISTENED}
+    for k in lasting[sorted(asked)] if len(lasting) else ():
         t, _, y = rows[k]
         try:
             found = noise(f, t, y, float(steps[k]), np.abs(y))

@@ -20,6 +20,7 @@ from ..integrators.march import IntegrationError, march
 from ..motion.bodies import Answer
 from ..motion.follow import Kept, between, either
 from ..motion.stuck import Stuck, slope
+from .errors import least
 
 # Fifteen nodes in (−1, 1) and seven, every second of them: exact up to t²³ and t¹³, so that a step
 # of the march's order needs no halving. What the sums differ by is more than the error of the
@@ -38,6 +39,7 @@ _SEVEN = (0.129484966168869693, 0.279705391489276668, 0.381830050505118945)
 SEVEN = np.array([*_SEVEN, 0.417959183673469388, *reversed(_SEVEN)])
 
 FINE = 1e-12  # of all that is done or taken: of a peak that no node meets its feet are more
+NOBODY = 1e-10  # of the smallest tolerance: what no bar would see, a part
 ROUNDING = 1e-14  # of it: what states, powers and their sum are rounded by
 LEAST = 1e-13  # of the motion: a shorter part is left as it is
 MOST = 2_000  # parts: ten seconds of work
@@ -89,6 +91,8 @@ def work_errors(
     owners = [name.rpartition(".")[0] for name in names]
     parts = _parts(answer, motion.times)
     ends, works = [np.zeros(1)], [np.zeros((1, len(names)))]
+    # Work that is none, as of a push at a pin, is all rounding: it is halved for no bar's sake.
+    floor = NOBODY * np.array([least(case, name) or 0.0 for name in names])
     left, total, count = np.zeros(len(names)), np.zeros(len(names)), 0
     while parts:
         begins(parts[0].begin, parts[-1].end)
@@ -101,7 +105,8 @@ def work_errors(
         off = np.abs(closer - off)
         if not count:
             total, count = np.sum(halves * (np.abs(powers) @ FIFTEEN), axis=1), len(parts)
-        wide = np.any(off > FINE * total[:, None], axis=0) & (halves > LEAST * case.duration)
+        bound = np.maximum(FINE * total, floor)[:, None]
+        wide = np.any(off > bound, axis=0) & (halves > LEAST * case.duration)
         if count + 2 * int(np.sum(wide)) > MOST:
             wide[:] = False
         ends.append(np.array([part.end for part in parts])[~wide])

@@ -60,14 +60,20 @@ def impact(
         elif found[same[0]][0].shared and _lets_go(found[same[0]][1], states):
             found[same[0]] = way, states
     if not found:
-        what = (
-            "the impact would create energy" if gains else "no impulse satisfies the friction law"
-        )
-        raise NoImpact(what)
+        raise NoImpact("the impact would create energy" if gains else _impossible(joints, meetings))
     (first, states), *others = found
     if others or first.loose:
         raise Several(_ambiguous(meetings, [states for _, states in found]))
     return first, states
+
+
+def _impossible(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> str:
+    """Why there is no impulse, in words."""
+    if any(m.element.slip is not None and not m.element.frictionless for m in meetings):
+        return "no impulse satisfies the friction law"
+    if _driven(joints, meetings):
+        return "no impulse stops it: it is driven, and a drive does not give way"
+    return "no impulse satisfies it and what holds the bodies"
 
 
 def _driven(joints: Sequence[Condition], meetings: Sequence[Meeting]) -> bool:

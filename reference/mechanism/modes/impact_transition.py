@@ -74,7 +74,7 @@ def _struck(
     except Several as error:
         raise Undetermined(modes.elements[i].name, f"at t = {t:.4g} s {error}", t) from error
     except NoImpact as error:
-        what = _needed(modes, held, met, v, t) or str(error)
+        what = _needed(modes, held, met, v, t) or f"at t = {t:.4g} s {error}"
         raise Undetermined(modes.elements[i].name, what, t) from error
     return taken.v, states
 

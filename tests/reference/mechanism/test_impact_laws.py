@@ -34,4 +34,4 @@ def test_an_impact_that_would_create_energy_is_refused(tmp_path, vx: float):
     """v_n⁺ = −v_n⁻ and a tip that friction stops: what turns the bar to do so is work of nobody."""
     mistake = refused(rod(tmp_path, y=0.05, e=1, mu=3, vx=vx))
     assert mistake.where == "scene.contacts.tip.friction"
-    assert mistake.what == "the impact would create energy"
+    assert mistake.what.endswith("s the impact would create energy")
