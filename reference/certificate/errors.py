@@ -152,5 +152,6 @@ def _asks(bar: float, certified: float, unit: str, cure: str) -> str:
     enough = math.ceil(certified / SHARE / digit) * digit
     return (
         f"{bar:.3g} asks more than can be certified: the reference knows this to "
-        f"{certified:.1e} {unit}, and that may be {SHARE:.0%} of it; give at least {enough:.0e}{cure}"
+        f"{certified:.1e} {unit}, and that may be {SHARE:.0%} of it; "
+        f"give at least {enough:.0e}{cure}"
     )

@@ -143,5 +143,5 @@ def test_a_sum_is_known_to_its_terms(tmp_path: Path) -> None:
     x = solve(case).trajectory.states["a"][:, 0]
     off = np.max(np.abs(x - 2e6 * np.sin(q / 2) ** 2))
     assert 1e-12 < off <= error(case, "a.x")
-    with pytest.raises(CaseError, match="give at least [0-9e-]+$"):
+    with pytest.raises(CaseError, match=r"give at least 5e-08\n"):
         solve(claimed(tmp_path, CANCELS.replace("a.x: 1.0e-6", "a.x: 1.0e-12")))
