@@ -5,7 +5,7 @@ by whoever wrote the case. That a recipe of ours keeps the tolerance of a user's
 has promised: where it does not, that is the answer to his question.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -49,7 +49,8 @@ def _promised(case: Case, row: Comparison) -> bool:
 def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
     """A line for each engine in which no setting that was run keeps all of a user's own case.
 
-    Only where our recipe was run: else nobody has tried.
+    And for each `reach` that no row is held to. Only where our recipe was run: else nobody has
+    tried.
     """
     if ships(case):
         return
@@ -58,6 +59,7 @@ def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
         if row.case == case.name and row.quantity != "audit":
             ways = engines.setdefault(row.engine, {})
             ways.setdefault((row.setting, row.realised), []).append(row)
+    yield from _of_no_row(case, engines)
     for engine, ways in engines.items():
         if not any(setting == OURS for setting, _ in ways):
             continue
@@ -70,13 +72,29 @@ def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
             yield f"{case.name} in {engine}: no recipe of ours keeps it; nearest: {nearest}"
 
 
+def _of_no_row(
+    case: Case, engines: Mapping[str, Mapping[tuple[str, str], Iterable[Comparison]]]
+) -> Iterator[str]:
+    for key in case.reach:
+        engine, _, way = key.partition(".")
+        ran = {how for (setting, how), rows in engines.get(engine, {}).items()
+               if setting == OURS and _judged(rows)}  # fmt: skip
+        if ran and (way if way in ("law", "driver") else "native") not in ran:
+            yield f"{case.name}: reach.{key} is held by no row: {engine} does not run the scene so"
+
+
 def _judged(rows: Iterable[Comparison]) -> list[Comparison]:
     return [row for row in rows if row.verdict != REFUSED]
 
 
 def _kept(rows: Iterable[Comparison]) -> bool:
     found = _judged(rows)
-    return bool(found) and all(row.verdict in (AGREES, DEVIATES) for row in found)
+    return bool(found) and all(map(_within, found))
+
+
+def _within(row: Comparison) -> bool:
+    """Whether the tolerance is kept, be it that something else that was declared is not."""
+    return row.verdict in (AGREES, DEVIATES) or (row.ratio is not None and row.ratio <= 1)
 
 
 def _worst(rows: Iterable[Comparison]) -> Comparison | None:

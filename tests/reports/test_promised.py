@@ -88,3 +88,18 @@ def test_the_nearest_is_named(asked: Case) -> None:
     kept = [rows[0], replace(rows[1], verdict=AGREES)]
     assert not [*unkept(asked, kept)]
     assert not [*unkept(scenes.EVERY["bar_pendulum"], rows)]
+    gone = replace(rows[1], verdict=FAILS, ratio=0.5, because="the declared deviation is gone")
+    assert not [*unkept(asked, [rows[0], gone])]  # the tolerance is kept
+
+
+@pytest.mark.mutant("a promise of a row that is not there")
+def test_a_reach_of_no_row_is_told(asked: Case) -> None:
+    rows = [replace(row("tuned", 0.5, verdict=AGREES), case=asked.name)]
+    engine, bound = rows[0].engine, {rows[0].quantity: 1e-6}
+    promised = replace(asked, reach={f"{engine}.law": bound, engine: bound, "another": bound})
+    (line,) = unkept(promised, rows)
+    what = f"reach.{engine}.law is held by no row: {engine} does not run the scene so"
+    assert line == f"{asked.name}: {what}"
+    lawful = replace(rows[0], realised="law")
+    assert not [*unkept(promised, [*rows, lawful])]
+    assert [*unkept(promised, [lawful])] == [line.replace(f"{engine}.law", engine)]
