@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from given.faulty import Faulty
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
@@ -11,6 +12,8 @@ from textmech.reports import collecting
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
 from textmech.reports.collecting import Earlier, Key, collected
+from textmech.reports.system import limit
+from textmech.reports.system.pool import Died
 
 FILE = shipped()["bar_pendulum"]
 
@@ -68,3 +71,14 @@ def test_a_key_without_the_engine_is_seen(
     monkeypatch.setattr(Keys, "collected", lambda self, case, engine: self.solution(case))
     with pytest.raises(AssertionError):
         test_an_engine_is_asked_once(tmp_path, asked)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("an engine that hangs while it is collected hangs pytest")
+def test_an_engine_that_hangs_is_waited_for_as_long_as_is_said(
+    moving: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(limit.VARIABLE, "1.0")
+    found = collecting._apart(collecting._Asked(Faulty(verb="plans", act="hangs"), moving, {}))
+    assert isinstance(found, Died)
+    assert found.because == "it took longer than 1 s, and was ended"
