@@ -76,7 +76,8 @@ def _recorded(record: Any, scene: Scene, times: Array) -> None:
         raise BadAnswer(f"record should be a trajectory, is {_kind(record)}")
     steps = record.times
     _rows("times of the record", steps, (steps.size if isinstance(steps, np.ndarray) else 0,))
-    if not (len(steps) > 1 and np.all(np.diff(steps) > 0.0)):  # not of NaN
+    # Two rows may be of one time, before and after a stop. Of NaN this is not so.
+    if not (len(steps) > 1 and steps[0] < steps[-1] and np.all(np.diff(steps) >= 0.0)):
         raise BadAnswer("times of the record should rise from step to step")
     ends = np.abs(np.array([steps[0] - times[0], steps[-1] - times[-1]]))
     if not np.all(ends <= AROUND * np.max(np.diff(steps))):  # as a protocol reads it
