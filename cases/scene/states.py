@@ -79,9 +79,8 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
         for field, (unit, kind) in fields.items():
             known[f"{part}.{field}"] = Quantity(f"{part}.{field}", part, field, unit, kind)
     units = set(coordinates(scene).values())
-    if (
-        scene.frame is SPACE and len(units) == 1
-    ):  # of metres and radians together its entries have no common unit
+    # Of metres and radians together its entries have no common unit.
+    if scene.frame is SPACE and len(units) == 1:
         unit = "kg m²" if units == {"rad"} else "kg"
         known[MASS_MATRIX] = Quantity(MASS_MATRIX, MASS_MATRIX, "", unit, "inertia")
     return known
