@@ -124,7 +124,7 @@ def _comments(lines: list[str], node: ast.AST) -> Iterator[str]:
 def _annotated(annotation: ast.expr) -> tuple[str, str]:
     """The type without its marks, and the unit that these give."""
     source = ast.unparse(annotation)
-    units = re.findall(r"\b(?:In|InTime|Law)\('([^']+)'", source)
+    units = re.findall(r"\b(?:In|InTime|PrescribedLaw)\('([^']+)'", source)
     unit = units[0] if units else "rad" if "Angle" in source else ""
     if "Direction" in source:
         return "Vector | None" if "None" in source else "Vector", "1"
