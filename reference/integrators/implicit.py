@@ -22,7 +22,7 @@ SLOW = 0.01  # contraction of the iteration beyond which the next step gets a ne
 MANY = 200  # columns: such a Jacobian costs as much as some thirty iterations
 PATIENT = 0.1  # and so does not pay before this contraction, where they are twice as many
 ROUNDING = 100.0 * EPS  # corrections this small that no longer shrink are rounding
-BESIDE = 1e4  # times its own size: what is smaller beside the others is moved by no more of them
+BESIDE = 1e4  # times what it is or becomes in the step: more is no small part of it
 FAR = 3.0  # do not extrapolate the stages to a step this many times longer than the last
 NEAR = 1e-12  # nor to one as much shorter: its nodes are the last one's end but for rounding
 
@@ -81,7 +81,7 @@ class Radau:
             self.begin(t, y)
         slow = SLOW if len(y) < MANY else PATIENT
         if self._jacobian is None or (self._contraction > slow and not self._fresh):
-            self._differentiate(t, y, peak)
+            self._differentiate(t, y, h, peak)
         while True:
             z = self._solve(t, y, h, peak)
             if z is not None:
@@ -90,15 +90,16 @@ class Radau:
             if self._fresh:
                 self._tried = None
                 return np.full_like(y, math.nan)
-            self._differentiate(t, y, peak)
+            self._differentiate(t, y, h, peak)
 
-    def _differentiate(self, t: float, y: Vector, peak: Vector) -> None:
+    def _differentiate(self, t: float, y: Vector, h: float, peak: Vector) -> None:
         if self.jacobian is None:
             size = sizes(peak, self.tolerance)
             # A state at rest at the origin has no size of its own to take a small part of.
             size = size if size.max() > 1e-200 else np.ones_like(y)
             # A place of 1e-10 m beside a turn of 1e12 rad/s: a part of the latter is no small step.
-            size = np.where(peak > 0.0, np.minimum(size, BESIDE * peak), size)
+            own = np.maximum(peak, h * np.abs(self._slope))
+            size = np.where(own > 0.0, np.minimum(size, BESIDE * own), size)
             self._jacobian = difference_jacobian(self.f, t, y, self._slope, size)
             self.evaluations += len(y)
         else:
