@@ -74,7 +74,7 @@ def pace(case: Case, engine: Engine) -> float:
 
 @dataclass(frozen=True)
 class _Asked:
-    """Of whom, and of which case: an engine is anybody's, and cannot tell whether it is another."""
+    """Names whom and which case: an engine is anybody's, and cannot tell if it is another."""
 
     of: tuple[str, ...]
     engine: Paced = field(compare=False)
