@@ -1,9 +1,11 @@
 """Somebody else's engine is tried in a process of its own before it is let into this one."""
 
 import multiprocessing
+import os
 import pickle
 import signal
 from collections.abc import Callable
+from contextlib import suppress
 from importlib.metadata import EntryPoint
 from math import isfinite
 from multiprocessing.connection import Connection
@@ -41,8 +43,23 @@ def apart(call: Callable[..., Any], *given: Any, most: float) -> tuple[Any, str]
         process.join()
         return None, f"its process ended ({_how(process.exitcode)})"
     finally:
+        if process.pid is not None:
+            end_group(process.pid)
         process.kill()
         process.join()
+
+
+def lead_group() -> None:
+    """Begins a group of processes: what an engine starts in this one ends with it."""
+    if hasattr(os, "setpgid"):
+        os.setpgid(0, 0)
+
+
+def end_group(leader: int) -> None:
+    """Ends a process that leads a group, with all that it has started and left behind."""
+    with suppress(OSError):  # it leads none yet, or all of it is gone
+        if hasattr(os, "killpg"):
+            os.killpg(leader, signal.SIGKILL)
 
 
 def unsound(engine: Any, name: str, setting: str) -> str:
@@ -85,12 +102,17 @@ def guarded(call: Callable[[], Any]) -> tuple[Any, BaseException | None]:
 
 def _interrupted(error: BaseException | None) -> bool:
     """Whether an interruption is behind it: an extension that is being imported hides it."""
-    while error is not None and not isinstance(error, KeyboardInterrupt):
+    seen = set[int]()  # one may be its own cause
+    while error is not None and id(error) not in seen:
+        if isinstance(error, KeyboardInterrupt):
+            return True
+        seen.add(id(error))
         error = error.__cause__ or error.__context__
-    return error is not None
+    return False
 
 
 def _answer(there: Connection, call: Callable[..., Any], given: tuple[Any, ...]) -> None:
+    lead_group()
     silence()
     try:
         there.send((call(*given), ""))

@@ -331,7 +331,7 @@ def _spread(motion: Trajectory, case: Case) -> float:
     """How far [m] any body goes along an axis."""
     columns = case.scene.frame.alike("m")
     each = (np.ptp(states[:, columns], axis=0) for states in motion.states.values())
-    return float(np.max([np.max(far, initial=0.0) for far in each], initial=0.0))
+    return max((float(np.max(far)) for far in each), default=0.0)
 
 
 def _floor(case: Case, unit: str) -> float:

@@ -4,8 +4,10 @@ Neutral: it names no engine and no method. Planar frame: x right, y up, angles
 counter-clockwise, SI units. What a scene is made of can be imported from here.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
+from functools import wraps
+from typing import TypeVar
 
 from ..fields.friction import Bounds, DryFriction, Smooth, Stribeck
 from ..fields.kind import WORK, Fields
@@ -70,6 +72,7 @@ __all__ = [
     "TorsionDamper",
     "Vector",
     "Viscous",
+    "once",
     "planar_joint",
 ]
 
@@ -195,3 +198,23 @@ class Scene:
     def ends(self, force: Force) -> tuple[Anchor, ...]:
         """The points on which a force acts, or those of the joint about which it does."""
         return force.refers() if force.about is None else self.joints[force.about].refers()
+
+
+Made = TypeVar("Made")
+
+
+def once(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
+    """Returns the function as one that makes its answer once for each scene, and keeps it there.
+
+    The answer is handed out as it is: whoever asks does not change it.
+    """
+    name = f"{make.__module__}.{make.__qualname__}"
+
+    @wraps(make)
+    def known(scene: Scene) -> Made:
+        kept = vars(scene)  # as functools.cached_property does
+        if name not in kept:
+            kept[name] = make(scene)
+        return kept[name]
+
+    return known

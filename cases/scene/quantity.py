@@ -11,8 +11,7 @@ from typing import Literal
 
 from ..fields.event import Event
 from ..fields.kind import Fields, Kind
-from . import Scene
-from .once import once
+from . import Scene, once
 
 _ENERGY: Fields = {
     "kinetic": ("J", "energy"),

@@ -110,7 +110,8 @@ def certify(
 def _rests(change: Change) -> bool:
     """Whether something stops and stays: what only turns round passes its stop with a slope."""
     part, _, word = (change.name or "").rpartition(" ")
-    return word == "stops" and f"{part} slides" not in change.mode_after
+    goes_on = any(state.startswith(f"{part} slides") for state in change.mode_after.split(", "))
+    return word == "stops" and not goes_on
 
 
 def _looser(apart: float) -> float:

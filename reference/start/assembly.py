@@ -59,7 +59,7 @@ def _as_good(
     there = closure.moved(q, closure.units * change)
     try:
         return there, rates(closure, there)
-    except CaseError:  # what is given holds at the other place only
+    except CaseError:  # what is given agrees with its own place only
         return there, v
 
 

@@ -9,12 +9,13 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
 from typing import Any
 
+from ...engines.probe import end_group, lead_group
 from ...engines.quiet import silence
 from ...reference.integrators.now import NOW, doing
 from . import limit
@@ -233,7 +234,7 @@ class _Process:
         """Ends it, whatever it does, with what its tasks have started and left behind."""
         with _CHILDREN:
             if self._process.pid is not None:
-                _end_group(self._process.pid)
+                end_group(self._process.pid)
             self._process.kill()
             self._process.join()
 
@@ -241,12 +242,6 @@ class _Process:
         code = self._process.exitcode
         assert code is not None  # it has been joined
         return signal.Signals(-code).name if code < 0 else f"exit code {code}"
-
-
-def _end_group(leader: int) -> None:
-    with suppress(OSError):  # it has none yet, or all of it is gone
-        if hasattr(os, "killpg"):
-            os.killpg(leader, signal.SIGKILL)
 
 
 @contextmanager
@@ -265,8 +260,7 @@ def _deaf() -> Iterator[None]:
 def _serve(calls: Connection, words: Any, jobs: int) -> None:
     """Answers calls in a worker process, one of `jobs`, until its parent is gone."""
     limit.hold(jobs)
-    if hasattr(os, "setpgid"):  # a group of its own: what an engine starts ends with it
-        os.setpgid(0, 0)
+    lead_group()
     threading.Thread(target=_with_parent, daemon=True).start()
     threading.Thread(target=_tell, args=(words,), daemon=True).start()
     silence()
@@ -308,5 +302,5 @@ def _with_parent() -> None:
     parent = multiprocessing.parent_process()
     assert parent is not None
     parent.join()
-    _end_group(os.getpid())
+    end_group(os.getpid())
     os._exit(1)

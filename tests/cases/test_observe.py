@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import simpson
 
+from textmech.cases import scene as scenes
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -18,7 +19,6 @@ from textmech.cases.scene import (
     GroundPoint,
     Scene,
     Spring,
-    once,
     planar_joint,
     shape,
 )
@@ -257,5 +257,5 @@ def test_a_table_is_of_the_scene_that_is_asked() -> None:
 @pytest.mark.mutant("the quantities of the scene that was asked before")
 def test_a_table_of_another_scene_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     shared = dict[str, object]()
-    monkeypatch.setattr(once, "vars", lambda scene: shared, raising=False)
+    monkeypatch.setattr(scenes, "vars", lambda scene: shared, raising=False)
     assert not own_tables()

@@ -1,11 +1,14 @@
 """Whatever an engine's package does while it is imported and made: it is told, nobody dies."""
 
+import os
 import sys
+import time
 from collections.abc import Iterator
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
+from given.forked import TOLD, runs
 
 from textmech import engines
 from textmech.engines import probe
@@ -120,6 +123,30 @@ def test_an_interruption_that_an_import_hides_is_one() -> None:
     with pytest.raises(KeyboardInterrupt):
         probe.guarded(imports)
     assert isinstance(probe.guarded(lambda: 1 / 0)[1], ZeroDivisionError)
+
+    def its_own_cause() -> None:
+        error = ValueError("round")
+        raise error from error
+
+    assert isinstance(probe.guarded(its_own_cause)[1], ValueError)  # and nobody looks for ever
+
+
+@pytest.mark.mutant("what an engine starts when it is tried outlives that")
+@pytest.mark.skipif(not TOLD, reason="nothing tells what runs")
+def test_what_it_starts_ends_with_the_trial() -> None:
+    def forks() -> int:
+        left = os.fork()
+        if left == 0:
+            time.sleep(60)
+            os._exit(0)
+        return left
+
+    left, why = probe.apart(forks, most=10.0)
+    assert not why
+    until = time.monotonic() + 10
+    while runs(left) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert not runs(left)
 
 
 def test_what_it_prints_is_not_in_the_output(

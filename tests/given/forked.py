@@ -5,6 +5,7 @@ A process of its own would import pandas and both engines again, and so would ea
 
 import multiprocessing
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 FORK = multiprocessing.get_context("fork")
@@ -20,3 +21,13 @@ def forked(function: Callable[..., Any], *arguments: Any) -> Any:
         return here.recv()
     finally:
         process.join()
+
+
+TOLD = Path("/proc/self/status").exists()
+"""Whether the system tells what runs."""
+
+
+def runs(process: int) -> bool:
+    """Whether it does: one that has ended and that nobody has asked for does not."""
+    status = Path(f"/proc/{process}/status")
+    return status.exists() and "State:\tZ" not in status.read_text(encoding="utf-8")

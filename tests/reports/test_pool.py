@@ -9,6 +9,7 @@ from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from given.forked import TOLD, runs
 
 from textmech.reports.system import pool
 from textmech.reports.system.lock import locked
@@ -209,14 +210,8 @@ def leaves(task: tuple[Path, bool]) -> None:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
-def runs(process: int) -> bool:
-    """Whether it does: one that has ended and that nobody has asked for does not."""
-    status = Path(f"/proc/{process}/status")
-    return status.exists() and "State:\tZ" not in status.read_text(encoding="utf-8")
-
-
 @pytest.mark.mutant("what an engine starts outlives the run")
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="nothing tells what runs")
+@pytest.mark.skipif(not TOLD, reason="nothing tells what runs")
 @pytest.mark.parametrize("dies", [False, True])
 def test_what_a_task_starts_ends_with_the_pool(dies: bool, tmp_path: Path) -> None:
     told = tmp_path / "left"

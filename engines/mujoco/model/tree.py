@@ -14,10 +14,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector
+from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector, once
 from ....cases.scene.frame import PLANE
 from ....cases.scene.joint import Freedom
-from ....cases.scene.once import once
 from ....cases.scene.rotation import Vector3
 from ...engine import Start
 from .number_text import lifted

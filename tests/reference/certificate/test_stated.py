@@ -11,6 +11,7 @@ from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference.certificate import certify, event_time_error, work_error
 from textmech.reference.certificate.agreement import Check
+from textmech.reference.motion.follow import Change
 from textmech.reference.solve import solve
 
 TURNS = """\
@@ -78,6 +79,17 @@ def test_what_turns_round_is_known_better_than_what_stops(
     monkeypatch.setattr(certify, "_rests", lambda change: True)
     with pytest.raises(CaseError, match="asks more than can be certified"):
         solve(case)
+
+
+@pytest.mark.mutant("a slide whose name ends another's goes on as that does")
+def test_who_stops_is_told_by_his_whole_name() -> None:
+    state = np.zeros(2)
+
+    def rests(after: str) -> bool:
+        return certify._rests(Change("r stops", 1, 0.1, "", after, state, state))
+
+    assert rests("r sticks, tr slides +")
+    assert not rests("tr sticks, r slides -")
 
 
 @pytest.mark.slow

@@ -1,10 +1,12 @@
 """What a generated mechanism says of modes that contradict contact or friction."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 from given import scenes
+from scipy.integrate import quad
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
@@ -175,3 +177,44 @@ def test_one_end_of_a_ladder_rests_alone(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr(PlanarMechanism, "_stops_too", lambda *_: None)
     with pytest.raises(AssertionError):
         test_a_ladder_rests_at_both_ends_in_whatever_order_they_are_told(tmp_path)
+
+
+# A stop's gap is an angle: what is none of it does not hang on the scene's size.
+
+
+STRUCK = """\
+scene:
+  gravity: 9.8
+  points: {O: [0, 0]}
+  bodies: {b: {bar: {mass: 1.0e-9, length: LENGTH}}}
+  joints: {h: {pin: [ground.O, b.start]}}
+  forces: {s: {stops: h, low: -60 deg, restitution: 0.5}}
+initial: {b: {angle: 10 deg}}
+allow: {b.angle: 0.01}
+"""
+
+
+def falling(low: float, high: float) -> float:
+    """√(l/g) in which a bar falls from rest at one angle to another: ω² = 3 (sin φ₀ − sin φ)."""
+
+    def slowness(s: float) -> float:  # φ = φ₀ − s², which has no pole at rest
+        return 2 * s / math.sqrt(3 * (math.sin(high) - math.sin(high - s * s)))
+
+    return float(quad(slowness, 0.0, math.sqrt(high - low), epsabs=1e-13)[0])
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("the gap of a stop is small against a length")
+@pytest.mark.parametrize("length", [6.0e-7, 6.0e-5, 0.6, 600.0])
+def test_a_bar_of_any_length_bounces_on_its_stop(length: float, tmp_path: Path) -> None:
+    unit = math.sqrt(length / 9.8)
+    case = scenes.typed(
+        tmp_path, STRUCK.replace("LENGTH", repr(length)), tail=scenes.tail(4.8 * unit, 11)
+    )
+    found = solve(case)
+    assert [check for check in found.checks if not check.holds] == []
+    low, high = math.radians(-60), math.radians(10)
+    back = math.asin(math.sin(low) + 0.25 * (math.sin(high) - math.sin(low)))  # at half the rate
+    first = falling(low, high)
+    strikes = [first, first + 2 * falling(low, back)]
+    assert np.max(np.abs(found.trajectory.switches[:2] / unit - strikes)) < 1e-9  # of quadrature
