@@ -168,7 +168,7 @@ def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
                     times += [t for t, _ in dips(motion.times[rows], left[rows])]
         if times:
             what = (
-                f"{pair.at} has left the {pair.on} at t = {min(times):.3g} s, "
+                f"{pair.at} has left the {pair.on} by t = {min(times):.3g} s, "
                 "where it is past its end: shorten the duration, or name what it then touches"
             )
             yield case.mistake(("scene", "contacts", pair.name), what)

@@ -84,11 +84,12 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
     columns = case.scene.frame.alike(quantity.unit)
     if case.states is not None and quantity.unit == "m":  # a sum along the chain, which may cancel
         size = max(size, _summed(case))
-    if quantity.kind != "force" and quantity.part not in case.scene.bodies:
-        # How far places are apart is known as well as they are, which may be far from the origin.
-        size = worst(
-            [size, *(worst(np.abs(s[:, columns]).ravel()) for s in motion.states.values())]
-        )
+    if quantity.kind != "force":
+        # How far places are apart is known as well as they are, which may be far from the origin;
+        # and one coordinate of a body on a wire as well as the other.
+        mine = motion.states.get(quantity.part)
+        states = motion.states.values() if mine is None else [mine]
+        size = worst([size, *(worst(np.abs(s[:, columns]).ravel()) for s in states)])
     return worst([EPS * size, *map(worst, found)])
 
 

@@ -15,8 +15,10 @@ from ...cases.scene.point import GROUND, Anchor, anchor
 from ...cases.scene.quantity import table
 from ...cases.scene.rotation import angle_between, inverse, product, turned
 from ...cases.trajectory import Array, Trajectory
+from ..integrators.march import EPS
 from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
+from ..motion.event_location import instant
 from ..start.assembly import size_of
 from .agreement import Check, worst
 from .reading import Size, size
@@ -212,7 +214,6 @@ def _slips(case: Case, motion: Trajectory) -> Iterator[Array]:
 
 GIVEN = 1e-11  # ten times what the search for a start leaves open, in sizes and rad
 NEAR = math.pi / 2  # rad, or as many sizes: what is farther is not what `near` says
-AT_ONCE = 1e-12  # s: what happens at the start leaves the first sample as it is afterwards
 
 
 def started(case: Case, answer: Answer, motion: Trajectory, lengths: float) -> Iterator[Check]:
@@ -227,8 +228,11 @@ def started(case: Case, answer: Answer, motion: Trajectory, lengths: float) -> I
 
 
 def _first(case: Case, answer: Answer, motion: Trajectory) -> Trajectory:
-    """The motion; or the start by itself, if something happens at it."""
-    if not any(change.time <= AT_ONCE for change in answer.followed.changes):
+    """The motion; or the start by itself, if something happens at it.
+
+    The first sample is then as it is afterwards.
+    """
+    if not any(change.time <= instant(case.duration) for change in answer.followed.changes):
         return motion
     name, q, v = answer.system.start()
     poses = answer.system.modes[name].poses(0.0, q, v)
@@ -261,7 +265,10 @@ def _of_body(case: Case, name: str, start: Placement, seen: Motion, large: Size)
         from_, length, direction = start.polar
         x, y = (seen.point(Anchor(name, "center")) - seen.point(anchor(from_)))[0, :2].tolist()
         yield large.apart("m", math.hypot(x, y), length)
-        yield abs(math.remainder(math.atan2(y, x) - direction, math.tau))
+        there = seen.point(Anchor(name, "center"))[0, :2]
+        rounded = EPS * float(np.max(np.abs(there))) / length  # rad, of a place far from the origin
+        off = abs(math.remainder(math.atan2(y, x) - direction, math.tau))
+        yield max(0.0, off - rounded)
 
 
 def _stands(case: Case, at: Anchor, seen: Motion, large: Size) -> Iterator[float]:

@@ -17,6 +17,7 @@ from ..coverage import equation
 from ..system import Array, Mode, Vector
 from .derivative import along
 
+LARGER = 4  # tries: with the last it is 1e18 rad/s, or m/s
 MOST = 1e6  # times the energy of what is driven: T is quadratic, so large rates cost no digits
 
 
@@ -73,11 +74,22 @@ def _widths(T: Callable[..., Any], t: Any, q: Any, fast: Array, most: float) -> 
 
 
 def _alone(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]:
-    """|M_aa| (n,) of the ½ M_aa q̇ᵃ² in T, and the T of driven parts, without any rate."""
-    one = np.eye(n)
-    found = np.real(T(t, q, np.hstack([one, -one, np.zeros((n, 1))])))
-    found = np.broadcast_to(found, 2 * n + 1)
-    return np.abs(found[:n] + found[n:-1] - 2 * found[-1]), abs(float(found[-1]))
+    """|M_aa| (n,) of the ½ M_aa q̇ᵃ² in T, and the T of driven parts, without any rate.
+
+    By unit rates, or by ever larger ones until they have more energy than what is driven, which
+    would take their digits: a molecule at 1 rad/s hardly turns beside its hook at 100 m/s.
+    """
+    rates, M, driven = np.ones(n), np.zeros(n), 0.0
+    for _ in range(LARGER):
+        each = np.diag(rates)
+        found = np.real(T(t, q, np.hstack([each, -each, np.zeros((n, 1))])))
+        found = np.broadcast_to(found, 2 * n + 1)
+        twice, driven = np.abs(found[:n] + found[n:-1] - 2 * found[-1]), abs(float(found[-1]))
+        M, hidden = twice / rates**2, twice <= driven
+        if not (driven and np.any(hidden)):
+            break
+        rates[hidden] *= MOST
+    return M, driven
 
 
 def _even(M: Array, energy: float, most: float) -> Array:

@@ -11,8 +11,9 @@ import numpy as np
 
 from ..system import Array
 
-TOGETHER = 1e-12  # s: how well an event is located, so closer ones are one instant
+TOGETHER = 1e-12  # s, of a motion of a second or more: how well an event is located, see `instant`
 ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
+FINE = 1e-13  # of the bracket: what it is asked for in short steps, as of a motion of microseconds
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
 SOON = tuple(2.0**-k for k in range(16, 2, -1))  # of a step: what begins at zero may fall at once
 TOUCH = 1e-10  # of its values around: what falls no deeper has touched zero, and not fallen
@@ -31,6 +32,11 @@ Within = Callable[[float], Array]
 """h → y after a step of that length."""
 Rounding = Callable[[Fall, Array], Iterable[float]]
 """A guard and y at a step's end → what rounding makes of the guard at each point of the step."""
+
+
+def instant(duration: float) -> float:
+    """How close [s] two events of a motion are one: of a short one as small a part of its time."""
+    return TOGETHER * min(1.0, duration)
 
 
 def clear(guards: Sequence[Fall], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:
@@ -78,6 +84,7 @@ def first(
     rounding: Rounding | None = None,
     nothing: Sequence[float] = (),
     soon: int = 0,
+    together: float = TOGETHER,
 ) -> tuple[tuple[int, float] | None, list[tuple[int, float]]]:
     """Which guard falls first in the step from t, and how far into it; and which touch zero before.
 
@@ -85,7 +92,8 @@ def first(
     mode does, with this step. spent: the guard that ended it just before. rounding: what is no more
     than that is zero, and a guard that is zero begins. nothing: for each guard, of what size it is
     none all along. soon: so many of the points are right after the begin, where only guards are
-    looked at of which it is known what is nothing.
+    looked at of which it is known what is nothing. together [s]: of two that fall so close the
+    first in the list is told.
     """
     found, touched = None, list[tuple[int, float]]()
     # All guards at one state: they ask for the same forces.
@@ -109,7 +117,7 @@ def first(
         elif soon:
             looked, values = [0.0, *points[soon + 1 :]], [values[0], *values[soon + 1 :]]
         at, touch = crossing(g, looked, values, begins=fresh, spent=i == spent)
-        if at is not None and (found is None or at < found[1] - TOGETHER):
+        if at is not None and (found is None or at < found[1] - together):
             found = i, at
         if touch is not None:
             touched.append((i, touch))
@@ -227,8 +235,8 @@ def _root(values: Callable[[float], float], left: float, right: float) -> float:
         return right
     if not g(left) > 0.0:  # or there
         return left
-    root = float(brentq(g, left, right, xtol=ROOT, rtol=4 * np.finfo(float).eps))
-    beyond = ROOT
+    beyond = min(ROOT, FINE * (right - left))
+    root = float(brentq(g, left, right, xtol=beyond, rtol=4 * np.finfo(float).eps))
     while root < right and g(root) > 0.0:
         root, beyond = min(root + beyond, right), 2 * beyond
     return root

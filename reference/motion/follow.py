@@ -17,7 +17,7 @@ from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
 from ..system import Array, Guard, Mode, System
-from .event_location import INSIDE, SOON, TOGETHER, TOUCH, Fall, Within, clear, first
+from .event_location import INSIDE, SOON, TOUCH, Fall, Within, clear, first, instant
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
 from .zeno import (
@@ -152,7 +152,7 @@ class _Walk:
     touched: list[Touch] = field(default_factory=list)
     endless: list[Array] = field(default_factory=list)
     steps: int = 0
-    passed: float = -math.inf  # the last corner
+    passed: float = -math.inf  # the last corner: from then on what is given is as it is behind it
     spent: int | None = None  # the guard that has just fired, if its mode goes on
     fired: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
     passing: set[str] = field(default_factory=set[str])  # those after whose last a motion goes on
@@ -161,7 +161,8 @@ class _Walk:
         mode, q, v = self.system.start()
         self.t, self.now = float(self.times[0]), np.concatenate([q, v]).astype(np.float64)
         # An event on the last sample may be found just behind it.
-        self.stops = np.append(self.times, self.times[-1] + TOGETHER)
+        self.together = instant(float(self.times[-1] - self.times[0]))
+        self.stops = np.append(self.times, self.times[-1] + self.together)
         self.corners = on_samples(self.system.corners, self.stops)
         self._enter(mode)
         self._keep(self.t)
@@ -187,7 +188,7 @@ class _Walk:
     def _walk(self, mode: Mode, watched: Slope) -> None:
         guards = self.system.guards(self.phases[-1])
         corner = next((t for t in self.corners if t > self.t), math.inf)
-        here = between(self.passed, corner)
+        here = between(self.passed, min(self.corners.get(corner, [math.inf])))
         ends = stops(self.t, self.stops, corner, self.system.longest if guards else None)
         falls = [here(_falling(mode, guard)) for guard in guards]
         f, bare = here(watched), here(slope(mode))
@@ -210,7 +211,7 @@ class _Walk:
             spent = self.spent if begins else None
             fallen = partial(
                 first, near, step.t, points, states, state,
-                begins=begins, spent=spent, nothing=none, soon=len(soon),
+                begins=begins, spent=spent, nothing=none, soon=len(soon), together=self.together,
             )  # fmt: skip
             found, touched = fallen()
             room = early.rounding(step.t, points) if found is not None else None
@@ -235,8 +236,8 @@ class _Walk:
 
     def _cross(self, mode: Mode) -> None:
         """A corner: the mode may be another one beyond it."""
-        self.passed, self.spent, before = self.t, None, self.now
-        name, q, v = self.system.beyond(self.phases[-1], self.t, *mode.parted(before))
+        self.passed, self.spent, before = max(self.corners[self.t]), None, self.now
+        name, q, v = self.system.beyond(self.phases[-1], self.passed, *mode.parted(before))
         if name != self.phases[-1]:
             self._change(Change(None, 0, self.t, self.phases[-1], name, before, np.append(q, v)))
 
@@ -292,7 +293,7 @@ class _Walk:
     def _trembles(self, t: float, mode: str, before: Array, after: Array) -> bool:
         """Whether the mode has only just begun, by another event, and this one changes no rate."""
         last = self.changes[-1] if self.changes else None
-        if last is None or t - last.time > TOGETHER or last.mode_before == mode:
+        if last is None or t - last.time > self.together or last.mode_before == mode:
             return False
         return bool(np.max(np.abs(after - before)) <= ROUNDING * np.max(np.abs(before)))
 
@@ -300,7 +301,7 @@ class _Walk:
         self.changes.append(change)
         self.t, self.now = change.time, change.after
         self._enter(change.mode_after)
-        if self.t - self.times[len(self.y) - 1] <= TOGETHER:
+        if self.t - self.times[len(self.y) - 1] <= self.together:
             self.y[-1], self.phase[-1] = self.now, len(self.changes)
         self._keep(on_sample(self.t, self.stops))
 
@@ -363,6 +364,7 @@ def inside(step: Step, probe: Method) -> Within:
 # Where steps end: at samples, at corners of what is given in time, and often enough.
 
 
+ALIKE = 8  # ulp: the same time, typed and counted in intervals
 AT_ONCE = 256  # ulp: in so little time a force that grows from zero is nothing but rounding
 Timed = Callable[[float, Array], Any]
 """(t, y) → a slope, or what guards a mode."""
@@ -381,12 +383,14 @@ def stops(now: float, samples: Array, corner: float, longest: float | None) -> A
     return np.append(np.concatenate(between), found[-1])
 
 
-def on_samples(corners: Iterable[float], samples: Array) -> list[float]:
-    """The corners in their order; one that is a sample but for rounding is that sample."""
-    found = []
+def on_samples(corners: Iterable[float], samples: Array) -> dict[float, list[float]]:
+    """The corners in their order, by where steps end for them: one that is a sample but for
+    rounding ends with that, and both are told."""
+    found: dict[float, list[float]] = {}
     for corner in sorted(set(corners)):
         near = float(samples[np.argmin(np.abs(samples - corner))])
-        found.append(near if abs(near - corner) <= TOGETHER else corner)
+        alike = abs(near - corner) <= ALIKE * math.ulp(near)
+        found.setdefault(near if alike else corner, []).extend([corner, *([near] * alike)])
     return found
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..system import EARLY, LAST, Array
-from .event_location import TOGETHER
+from .event_location import instant
 
 MOST = 10_000  # events
 SEEN = 6  # firings of one name from which an accumulation is judged: five distances
@@ -48,7 +48,7 @@ def settles(event: str, instants: Sequence[float], duration: float) -> float | N
         following = two * two / one
         if following <= LAST * duration or following <= EARLY * duration * (1.0 - two / one):
             return following
-    if len(instants) >= SEEN and instants[-1] - instants[-SEEN] <= TOGETHER:
+    if len(instants) >= SEEN and instants[-1] - instants[-SEEN] <= instant(duration):
         raise ZenoError(event, instants[-1], "happens again and again")
     return None
 

@@ -217,3 +217,48 @@ def test_many_mistakes_are_found_quickly_and_shown_in_part(tmp_path: Path) -> No
     *shown, last = str(caught.value).splitlines()
     assert len(shown) == 3 * 20
     assert last == f"{file}: and 11758 more"
+
+
+TRAIN = """\
+title: A train goes at a speed for ten minutes
+scene:
+  points: {O: [0, 0]}
+  bodies: {train: {particle: {mass: 4.0e+5}}}
+  joints: {rail: {slide: [ground.O, train.center], along: [1, 0]}}
+  drive: {rail.speed: 80.0}
+initial: {train: {x: 0}}
+duration: 600.0
+samples: 61
+step: 1.0e-2
+allow: {train.x: 1.0}
+"""
+DUST = """\
+title: A grain falls through a thick fluid
+scene:
+  bodies: {b: {particle: {mass: 1.0e-6}}}
+  forces: {air: {drag: b.center, coefficient: 1.0, exponent: 3}}
+initial: {b: {x: 0, y: 0, vx: 0, vy: SPEED}}
+duration: 2.0
+samples: 21
+allow: {b.y: 1.0e-3}
+"""
+
+
+def test_what_only_slides_does_not_swing(tmp_path: Path) -> None:
+    """At 80 m/s, which are no rad/s; a pin that is driven so fast makes 7,600 turns."""
+    assert said(tmp_path, TRAIN) == []
+    turns = TRAIN.replace(
+        "slide: [ground.O, train.center], along: [1, 0]", "pin: [ground.O, b.end]"
+    )
+    turns = turns.replace("train: {particle: {mass: 4.0e+5}}", "b: {bar: {mass: 1, length: 1}}")
+    turns = turns.replace("rail.speed: 80.0", "rail.omega: 80.0").replace("train", "b")
+    turns = turns.replace("{x: 0}", "{angle: 0}")
+    (mistake,) = said(tmp_path, turns)
+    assert "scene.drive.rail.omega swings at 80 rad/s" in mistake[1]
+
+
+def test_a_drag_is_as_quick_as_what_it_drags(tmp_path: Path) -> None:
+    """Its terminal speed is 0.021 m/s, at which it is a thousandth of what it is at 1 m/s."""
+    assert said(tmp_path, DUST.replace("SPEED", "0")) == []
+    (mistake,) = said(tmp_path, DUST.replace("SPEED", "-3.0"))
+    assert "scene.forces.air swings at" in mistake[1]

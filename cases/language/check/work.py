@@ -11,6 +11,7 @@ from typing import Any
 from ...fields.signal import fastest
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
+from ...scene.forces.drag import Drag
 from ...scene.islands import apart
 from ..grammar.file import File
 from ..parse import Finding
@@ -62,7 +63,7 @@ def work(file: File, scene: Scene) -> Iterator[Finding]:
 
 def _swings(file: File, scene: Scene) -> tuple[float, str]:
     """Cost of the scene's swings [s], and the fastest of them in words."""
-    found = (each for each in (*_rates(scene), *_spins(file, scene)) if not isnan(each[0]))
+    found = (each for each in (*_rates(file, scene), *_spins(file, scene)) if not isnan(each[0]))
     rate, path = max(found, default=(0.0, ()))  # of a spoiled number its own mistake is said
     swing, count = rate * file.duration, len(scene.bodies)
     what = f"{'.'.join(map(str, path))} swings at {rate:.3g} rad/s, {swing:.3g} rad in all, which"
@@ -87,7 +88,7 @@ def _long(seconds: float, what: str, most: str = "") -> str | None:
     return f"{what} take {cost.about(seconds)}, and {limit}: {GO_ON}"
 
 
-def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
+def _rates(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
     """How fast [rad/s] what is in the scene swings by itself or is driven, and by what."""
     jointed = {at.body for joint in scene.joints.values() for at in joint.refers()}
     heaviest = max((body.mass for body in scene.bodies.values()), default=1.0)
@@ -101,6 +102,8 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
 
     for name, force in scene.forces.items():
         swings, decays = force.pace(mobility)
+        if isinstance(force, Drag) and decays:
+            decays *= _speed(file, scene, force, 1 / mobility(force.at)) ** (force.exponent - 1)
         yield max(swings, decays / DAMPED), ("scene", "forces", name)
     for name, point in scene.points.items():
         if point.moves is not None:
@@ -108,6 +111,23 @@ def _rates(scene: Scene) -> Iterator[tuple[float, Path]]:
     g = hypot(*scene.gravity)
     for at in _pins(scene):
         yield _pendulum(scene.bodies[at.body], at.point, g), ("scene", "bodies", at.body)
+
+
+def _speed(file: File, scene: Scene, drag: Drag, mass: float) -> float:
+    """A speed [m/s] that a dragged point is not far above, where its exponent is more than 1.
+
+    What only falls is as fast as it starts, or as carries it. Elsewhere it is 1 m/s, as it is for
+    less than 1, where what is slow is slowed down most.
+    """
+    if drag.exponent <= 1 or len(scene.forces) > 1 or scene.drives or scene.joints:
+        return 1.0
+    start = file.initial.get(drag.at.body)
+    begins = hypot(*(start.given.get(rate, 0.0) for rate in ("vx", "vy", "vz"))) if start else 0.0
+    weight, most = (
+        mass * hypot(*scene.gravity),
+        max(d for way in drag.ways for d in vars(way).values()),
+    )
+    return max(begins, (weight / most) ** (1 / drag.exponent))
 
 
 def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
@@ -118,9 +138,7 @@ def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
     if scene.frame.dimension == 3:
         yield from spins(file, scene)
         return
-    for rate, signal in scene.drives.items():
-        yield fastest(signal, file.duration), ("scene", "drive", rate)
-        yield signal.angular_frequency, ("scene", "drive", rate)
+    yield from _driven(file, scene)
     for name in scene.joints:
         start = file.initial.get(name)
         if start is not None and start.omega is not None:
@@ -172,10 +190,15 @@ def spins(file: File, scene: Any) -> Iterator[tuple[float, Path]]:
             turning += [rate for rate, freedom in rates.items() if freedom.kind == "turn"]
         for key in turning:
             yield abs(start.given.get(key, 0.0)), ("initial", name)
-    for rate, signal in driven.drives.items():
+    yield from _driven(file, driven)
+
+
+def _driven(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
+    """How fast [rad/s] joints are driven: what only slides turns nothing, however fast."""
+    for rate, signal in scene.drives.items():
         part, _, name = rate.rpartition(".")
         path = ("scene", "drive", rate)
         yield signal.angular_frequency, path
-        freedom = driven.joints[part].rates.get(name) if part in driven.joints else None
+        freedom = scene.joints[part].rates.get(name) if part in scene.joints else None
         if freedom is not None and freedom.kind == "turn":
             yield fastest(signal, file.duration), path

@@ -84,7 +84,11 @@ class Element:
     def amiss(self, depth: float, speed: float) -> str:
         """Words for a start so deep [m] in the plane, or else with this speed [m/s] into it."""
         if depth:
-            return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}"
+            side = self.two and not self.plane.startswith(
+                "rim"
+            )  # whose plane goes on behind its end
+            other = ", or beyond its end" if side else ""
+            return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}{other}"
         return f"{self.name} starts into the {self.plane}, with {speed:.3g} m/s"
 
     def near(self, size: float) -> float:

@@ -30,7 +30,7 @@ from .mode_selection import (
     staying,
     yielding,
 )
-from .modes import Modes, rate
+from .modes import LOCATED, Modes, rate
 from .shared_friction import alike_contacts
 from .spatial_mode import SpatialMultibody
 from .unilateral import HAPPENS, OTHER, OneSided
@@ -85,11 +85,20 @@ class SpatialMechanism(Mechanism):
 
 
 class PlanarMechanism(Mechanism):
-    """The scene as modes and guards; `size` [m] is what its gaps are small against."""
+    """The scene as modes and guards.
 
-    def __init__(self, scene: Scene, start: tuple[Array, Array], size: float) -> None:
+    size [m]: what its gaps are small against. located [s]: how well events are.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        start: tuple[Array, Array],
+        size: float,
+        located: float = LOCATED,
+    ) -> None:
         self.size = size
-        self.modes = self.built = Modes(scene, start)
+        self.modes = self.built = Modes(scene, start, located)
         self.base, self.elements = self.built.base, self.built.elements
         self.corners = self.built.corners
         sines = [f.signal for f in scene.signals() if f.signal.law == "sine"]

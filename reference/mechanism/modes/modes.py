@@ -24,14 +24,14 @@ ROUNDING = 1e-10  # of the accelerations that the forces give alone
 KEPT = (
     200  # modes: of more those that are not entered are built again when they are met, 50 kB each
 )
-LOCATED = 1e-12  # s: how well events are located
+LOCATED = 1e-12  # s: how well events are located in a motion of a second or more
 
 
 class Modes(Mapping[str, Multibody]):
     """The modes by name, built when they are first met."""
 
-    def __init__(self, scene: Scene, start: tuple[Array, Array]) -> None:
-        self.scene, self.start = scene, start
+    def __init__(self, scene: Scene, start: tuple[Array, Array], located: float = LOCATED) -> None:
+        self.scene, self.start, self._located = scene, start, located
         self.base = Multibody(scene, start)  # what holds in all of them
         where = self.base.where
         self._begins = float(np.max(np.abs(start[1]), initial=0.0))
@@ -209,7 +209,7 @@ class Modes(Mapping[str, Multibody]):
         Where all comes to rest v is rounding, and no size of anything.
         """
         speed = max(float(np.max(np.abs(v), initial=0.0)), self._begins)
-        return part * speed + LOCATED * self.base.terms(t, q, v)[0]
+        return part * speed + self._located * self.base.terms(t, q, v)[0]
 
 
 def rate(part: Constraint, t: float, q: Array, v: Array) -> float:
