@@ -131,6 +131,8 @@ def polynomial(x: Array, y: Array) -> Curve:
     """
     from scipy.interpolate import BarycentricInterpolator
 
+    if len(x) == 1:
+        return lambda t: float(y[0])
     made = BarycentricInterpolator(x, y, rng=0)
 
     def at(t: float) -> float:

@@ -17,6 +17,7 @@ from .adapter.claims import answered
 from .adapter.plans import numbers_by_name
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
+from .callbacks.cut import cuts
 from .callbacks.point_forces import states
 from .read.health import Left
 from .read.measure import measured
@@ -159,7 +160,8 @@ def _run(
     felt_by = {*scene.contacts, *scene.pairs, *world.limits}
     touching = tuple(name for name in felt if name.rpartition(".")[0] in felt_by)
     midpoint = bool(numbers.get("time.midpoint"))
-    kept = Record(world, step, midpoint, touching) if record else None
+    cut = realised == "driver" and cuts(scene)
+    kept = Record(world, step, midpoint, touching, cut) if record else None
     steps = stepper(world, step, numbers, realised, kept and kept.keep)
     motion = sampled(world, steps, times, step, numbers, reactions=felt)
     motion = replace(motion, reactions={**motion.reactions, **states(world, times, step)})

@@ -27,13 +27,15 @@ _BUFFER = Buffer()  # one for all runs: pymunk never frees a buffer's memory
 class Record:
     """Steps that are recorded: `keep` keeps the present states, `trajectory` is what they were.
 
-    forces: the quantities of contacts of which the impulses are kept too.
+    forces: the quantities of contacts of which the impulses are kept too. cut: whether a step is
+    where something lands.
     """
 
     world: World
     step: float
     midpoint: bool
     forces: tuple[str, ...] = ()
+    cut: bool = False
     keep: Callable[[], None] = field(init=False)
     _felt: list[list[float]] = field(init=False, default_factory=list)
 
@@ -88,15 +90,17 @@ class Record:
 
         Where a body bounces, it is in the floor only in the middle of the step: both rows around
         it stand above. There the middle is kept too, with the velocities before the impact. Third
-        are the rows before which the middles stand.
+        are the rows before which the middles stand. A step that is cut where something lands has
+        no such middle: half a step back along its velocities behind the impact no body ever was.
         """
         middle = rows[1:].copy()
         middle[:, :, 3:] = rows[:-1, :, 3:]
         rows[:, :, :3] += self.step / 2 * rows[:, :, 3:]
         lost = np.zeros(len(middle), bool)
-        for contact in (*self.world.scene.contacts, *self.world.scene.pairs):
-            gap = observe(self.world.scene, self._named(rows, times), f"{contact}.gap")
-            dip = observe(self.world.scene, self._named(middle, times[1:]), f"{contact}.gap")
+        scene = self.world.scene
+        for contact in () if self.cut else (*scene.contacts, *scene.pairs):
+            gap = observe(scene, self._named(rows, times), f"{contact}.gap")
+            dip = observe(scene, self._named(middle, times[1:]), f"{contact}.gap")
             lost |= (dip <= 0) & (gap[:-1] > ROUNDING) & (gap[1:] > ROUNDING)
         after = np.flatnonzero(lost) + 1
         rows = np.insert(rows, after, middle[lost], axis=0)

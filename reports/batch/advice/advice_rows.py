@@ -10,6 +10,7 @@ from ...data.short_numbers import milliseconds
 from ..search.candidate import Candidate
 from ..tasks import Pair
 from .candidates import NOTHING, Choice
+from .criterion import Bar
 from .parameter_draws import Held
 from .recipe import Kitchen, Recipe, Recipes, best
 
@@ -97,13 +98,21 @@ def words(choice: Choice) -> str:
     return " + ".join(choice.words) or "as shipped"
 
 
+def _nothing(bar: Bar) -> str:
+    """Why no run has an error that could be told."""
+    ran = [candidate for candidate, errors in bar.known.items() if errors]
+    if not ran:
+        return "every run diverges"
+    return f"no run has {bar.worst(ran[0])[1]} as often as the textbook, or at all"
+
+
 def _remains(one: Advised) -> dict[str, str | float]:
     """Columns: what no recipe brings within the bar, what the engine leaves out of the scene."""
     assert one.kitchen is not None
     assert isinstance(one.way, Plan)
     found, left_out = best(one.kitchen), one.way.simplified
     if found is None:
-        return {"remains": "; ".join(filter(None, ("every run diverges", left_out)))}
+        return {"remains": "; ".join(filter(None, (_nothing(one.kitchen.bar), left_out)))}
     candidate, worst, quantity = found
     told = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
     best_of = f"{told} at {milliseconds(candidate.step)}"

@@ -80,12 +80,15 @@ def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
     if trial.quantity(name).field == "count" and name in trial.instants:
         event = trial.quantity(name).part
         found = samples.get(f"{event}.time")
-        counts = None if found is None else float(len(found) - len(trial.events[event]))
-        return None if counts is None else np.array([abs(counts)])
+        return (
+            None if found is None else np.array([trial.miscounted(event, len(found), trial.step)])
+        )
     if name not in samples:
         return None
-    wanted = trial.wanted(name)
-    if len(samples[name]) != len(wanted):  # another count: which belongs to which?
+    wanted, count = trial.wanted(name), len(samples[name])
+    if count < len(wanted) and (event := trial.quantity(name).part) in trial.events:
+        wanted = wanted[trial.surely(event, trial.step)]  # what such steps can tell is enough
+    if count != len(wanted):  # another count: which belongs to which?
         return np.array([inf])
     return metric.sizes(trial.read(name, samples[name]) - wanted)
 

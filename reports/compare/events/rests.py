@@ -5,6 +5,9 @@ does not count twice. The time itself is where the motion, continued, would be z
 through the steps next to the rest, of which the nearest is still above 2 %. A straight line
 would be 7e-4 s off in Example 2.4 at any step, since 2 % of its speed last 30 ms; a cubic 1e-6 s.
 Where the steps between it and the rest are smooth themselves, `continued` asks those: 1e-12 s.
+
+What begins to move by far less than it reaches later needs a smaller share than 2 %. The exact
+motion tells which: an engine that trembles or creeps above that does not rest as it would.
 """
 
 from collections.abc import Iterator
@@ -15,6 +18,7 @@ from ....cases.scene.passages import polynomial
 from ....cases.trajectory import Array
 
 LOW, HIGH = 0.02, 0.04  # of the largest value
+SHARES = tuple(part * LOW for part in (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3))  # in place of LOW
 WINDOW = 0.06  # of the largest value in the phase: the curve is laid through 2 % to 6 % of it
 STEPS = 6  # at least, in the curve; and the shortest rest: a shorter one is a passage
 DEGREE = 3
@@ -22,18 +26,24 @@ PLAUSIBLE = 4  # times the way to half of the last value: where the zero can be
 TOUCHES = 0.5  # imaginary over real part: a curve that noise keeps just off zero
 
 
-def rests(times: Array, u: Array) -> list[tuple[float | None, float | None]]:
+Rest = tuple[float | None, float | None]
+"""When [s] something stops and starts; None where the record begins or ends in its rest."""
+
+
+def rests(times: Array, u: Array, low: float = LOW) -> list[Rest]:
     """(stop, start) [s] of every rest of u (N,); None where the record begins or ends in it.
+
+    low: in place of 2 %; what is asked elsewhere is as much smaller.
 
     Where u passes through zero both curves meet, so a rest has to last longer than six steps; or
     until the end of the record. What starts within six steps rests at no time. What never exceeds
     4 % of the motion's largest value again counts as rest: an engine's creep is no other.
     """
-    phases = [_widened(u, *phase) for phase in _phases(u)]
+    phases = [_widened(u, *phase, low) for phase in _phases(u, low)]
     if not phases:
         return []
-    stops = [None, *(_zero(times, u, first, last) for first, last in phases)]
-    starts = [*(_zero(times, u, last, first) for first, last in phases), None]
+    stops = [None, *(_zero(times, u, first, last, low) for first, last in phases)]
+    starts = [*(_zero(times, u, last, first, low) for first, last in phases), None]
     shortest = STEPS * float(times[1] - times[0])
     if phases[0][0] == 0:
         del stops[0], starts[0]
@@ -47,25 +57,25 @@ def rests(times: Array, u: Array) -> list[tuple[float | None, float | None]]:
     ]
 
 
-def _phases(u: Array) -> Iterator[tuple[int, int]]:
+def _phases(u: Array, low: float) -> Iterator[tuple[int, int]]:
     """First and last step of every stretch in which u moves with one sign."""
     largest = float(np.max(np.abs(u)))
     if largest == 0:
         return
-    clear = (np.abs(u) > HIGH * largest) | (np.abs(u) <= LOW * largest)
+    clear = (np.abs(u) > HIGH / LOW * low * largest) | (np.abs(u) <= low * largest)
     clear[0] = True
     as_at = np.maximum.accumulate(np.where(clear, np.arange(len(u)), 0))
-    moves = (np.abs(u) > LOW * largest)[as_at]
+    moves = (np.abs(u) > low * largest)[as_at]
     state = np.where(moves, np.sign(u), 0.0)
     for run in np.split(np.arange(len(u)), np.flatnonzero(np.diff(state)) + 1):
         if state[run[0]]:
             yield int(run[0]), int(run[-1])
 
 
-def _widened(u: Array, first: int, last: int) -> tuple[int, int]:
+def _widened(u: Array, first: int, last: int, low: float) -> tuple[int, int]:
     """The stretch with the steps beside it that still exceed 2 % of its own largest value."""
     sign = np.sign(u[first])
-    near = sign * u > LOW * float(np.max(np.abs(u[first : last + 1])))
+    near = sign * u > low * float(np.max(np.abs(u[first : last + 1])))
     outside = np.flatnonzero(~near)
     return (
         int(np.max(outside[outside < first], initial=-1)) + 1,
@@ -73,13 +83,13 @@ def _widened(u: Array, first: int, last: int) -> tuple[int, int]:
     )
 
 
-def _zero(times: Array, u: Array, inner: int, edge: int) -> float:
+def _zero(times: Array, u: Array, inner: int, edge: int, low: float) -> float:
     """Where u, continued from the steps between `inner` and `edge` beyond `edge`, is zero [s]."""
     away = 1 if edge >= inner else -1
     if not 0 <= edge + away < len(u):  # the record ends here: nobody asks for this time
         return float(times[edge])
     rows = np.arange(edge, inner - away, -away)
-    high = np.flatnonzero(np.abs(u[rows]) > WINDOW * np.max(np.abs(u[rows])))
+    high = np.flatnonzero(np.abs(u[rows]) > WINDOW / LOW * low * np.max(np.abs(u[rows])))
     rows = rows[: max(STEPS, int(high[0]))]
     h = float(times[edge + away] - times[edge])  # negative where u starts
     steps, values = (times[rows] - times[edge]) / h, u[rows] / u[edge]

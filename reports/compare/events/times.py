@@ -2,6 +2,7 @@
 
 The reference knows its phases, and an event is the boundary of two. An engine only has steps, and
 it creeps: it never rests. So no threshold is a time here; a threshold only tells what is near.
+What steps of a size can tell of the reference's own events, their reading of it says.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,12 +16,13 @@ from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import lasting, passages, touches
+from ....cases.scene.passages import AROUND, bent, lasting, passages, touches
 from ....cases.scene.quantity import at_event, table
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
-from .rests import LOW, STEPS, rests
+from .rests import LOW, SHARES, STEPS, rests
 
+WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
 SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
@@ -167,31 +169,95 @@ def _leaves(u: Array, still: float) -> bool:
     return bool(np.max(np.abs(u)) > still)
 
 
-def engine_events(scene: Scene, record: Trajectory, event: Event) -> Array:
+def engine_events(scene: Scene, record: Trajectory, event: Event, share: float = 0.0) -> Array:
     """Times (K,) [s] of the event, from every step of an engine.
 
-    Raises KeyError where the record does not hold the quantity.
+    share: as `reading` says. Raises KeyError where the record does not hold the quantity.
     """
-    u = event.falling(observe(scene, record, event.quantity))
-    if event.crosses:
-        return falls(record.times, u)
-    found = rests(record.times, u)
-    times = [stop if event.rule == "stays zero" else start for stop, start in found]
-    return np.array([t for t in times if t is not None], float)
+    return _read(record.times, event.falling(observe(scene, record, event.quantity)), event, share)
+
+
+def _read(times: Array, u: Array, event: Event, share: float) -> Array:
+    """Times (K,) [s] of the event, from u (N,) at steps."""
+    if not event.crosses:
+        found = rests(times, u, share or LOW)
+        ends = [stop if event.rule == "stays zero" else start for stop, start in found]
+        return np.array([t for t in ends if t is not None], float)
+    return _to_rest(times, u, falls(times, u), share) if share else falls(times, u)
+
+
+def _to_rest(times: Array, u: Array, fallen: Array, share: float) -> Array:
+    """When u (N,) falls to zero, also where it stays there: what it then is only trembles.
+
+    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign.
+    """
+    found: list[float] = fallen.tolist()
+    for stop, start in rests(times, u, share):
+        if stop is None or not np.sum(u[times < stop][-STEPS:]) > 0.0:
+            continue
+        early = stop - STEPS * float(times[1] - times[0])
+        until = float(times[-1]) if start is None else start
+        found = [t for t in found if not early <= t <= until] + [stop]
+    return np.array(sorted(found), float)
+
+
+def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> float:
+    """The share of the largest value with which `rests` reads the reference's events right.
+
+    With it steps so large [s] tell each of them within a step; 2 % where no share does. It is 0
+    where nothing rests: what only decays to zero does not fall to it.
+    """
+    if event.crosses and not _comes_to_rest(scene, record, event):
+        return 0.0
+    times, u = _at_steps(scene, record, event, step)
+
+    def right(share: float) -> bool:
+        found = _read(times, u, event, share)
+        return len(found) == len(happened) and bool(np.all(np.abs(found - happened) <= step))
+
+    return next((share for share in SHARES if right(share)), LOW)
+
+
+def _comes_to_rest(scene: Scene, record: Trajectory, event: Event) -> bool:
+    """Whether a rate falls to zero in the reference and stays there."""
+    if event.value or table(scene)[event.quantity].unit not in ("m/s", "rad/s"):
+        return False
+    u, small, pieces = _pieces(scene, record, event)
+    phases = _phases(scene, record, event, u, small, _parted(scene, record, event, pieces))
+    return any(before.falls and not after.moves for before, after in pairwise(phases))
+
+
+def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tuple[Array, Array]:
+    """Times (N,) of steps so large [s], and the reference's u (N,) there, by splines."""
+    from scipy.interpolate import make_interp_spline
+
+    u, _, pieces = _pieces(scene, record, event)
+    begin, end = float(record.times[0]), float(record.times[-1])
+    times = begin + step * np.arange(int((end - begin) / step + WHOLE) + 1)
+    found = np.zeros_like(times)
+    for rows in pieces:
+        bends = [0, *bent(record.times[rows], scene.corners()), len(rows) - 1]
+        for part in (rows[a : b + 1] for a, b in pairwise(sorted({*bends}))):
+            at, kept = np.unique(record.times[part], return_index=True)
+            if len(at) > 1:
+                inside = (times >= at[0]) & (times <= at[-1])
+                odd = min(AROUND, len(at)) // 2 * 2 - 1
+                found[inside] = make_interp_spline(at, u[part][kept], k=odd)(times[inside])
+    return times, found
 
 
 def falls(times: Array, u: Array) -> Array:
     """When u (N,) falls to zero, as `_through` says.
 
-    An impact may turn u back before any step sees it at zero: then it is the zero of the line
-    through the last two falling steps, if that lies within the next and u then rises. What rests on
-    zero trembles around it, so u has to come off between two falls, as `_off` says.
+    An impact may turn u back before any step sees it at zero: then it is the zero of what went
+    before, if the line through the last two falling steps has one within the next and u then rises.
+    What rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
     turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
     through = (u[:-1] > 0) & (u[1:] <= 0)
-    seen = {int(i): _through(times, u, int(i)) for i in np.flatnonzero(through)}
-    seen |= {int(i) + 1: _zero(times, u, int(i)) for i in np.flatnonzero(turned)}
+    seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
+    seen |= {int(i) + 1: _through(times, u, int(i) + 1, int(i)) for i in np.flatnonzero(turned)}
     largest, last = float(np.max(np.abs(u))), 0
     found: list[float] = []
     for i, t in sorted(seen.items()):
@@ -206,14 +272,21 @@ def _off(u: Array, largest: float) -> bool:
     return bool(np.any(u > LOW * largest)) or int(np.sum(u > SMALL * largest)) >= STEPS
 
 
-def surely(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> int:
-    """How many of the reference's events, at these times (K,), steps of this size tell for sure.
+def surely(
+    scene: Scene, record: Trajectory, event: Event, happened: Array, step: float, share: float
+) -> NDArray[np.int64]:
+    """Which of the reference's events, at these times (K,), steps of this size tell for sure.
 
     A ball that comes to rest bounces ever lower: what lasts a few steps, or rises by 1e-4 of the
-    first height, may be seen in an engine's motion or not.
+    first height, may be seen in an engine's motion or not. Of rests it is those which are read from
+    such steps of the reference itself; share: as `reading` says.
     """
-    if not event.crosses or not len(happened):
-        return len(happened)
+    if not len(happened):
+        return np.arange(0)
+    if not event.crosses:
+        found = _read(*_at_steps(scene, record, event, step), event, share)
+        apart = np.abs(happened[:, None] - found[None, :])
+        return np.flatnonzero(np.min(apart, axis=1, initial=np.inf) <= STEPS * step)
     u = event.falling(observe(scene, record, event.quantity))
     largest = float(np.max(np.abs(u)))
     humps = [
@@ -221,23 +294,24 @@ def surely(scene: Scene, record: Trajectory, event: Event, happened: Array, step
         for start, end in pairwise([float(record.times[0]), *happened.tolist()])
     ]
     long, high = SURE * STEPS * step, SURE * SMALL * largest
-    return sum(bool(lasts >= long and height >= high) for lasts, height in humps)
+    return np.flatnonzero([lasts >= long and height >= high for lasts, height in humps])
 
 
-def _through(times: Array, u: Array, i: int) -> float:
-    """The zero between steps i and i + 1: of the curve through the steps before, if it is there.
+def _through(times: Array, u: Array, i: int, line: int) -> float:
+    """The zero after step i: of the curve through the steps up to it, if it is within the next.
 
     What happens then, as an impact or the end of a force, spoils a curve to the steps behind, and
-    already the line to the next. That line tells where steps tremble too much for any curve.
+    already the line to the next. Where steps tremble too much for any curve a line tells, through
+    steps `line` and the next.
     """
     if i < CURVE - 1:
-        return _zero(times, u, i)
+        return _zero(times, u, line)
     h = float(times[i + 1] - times[i])
     rows = slice(i - CURVE + 1, i + 1)
     roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
     zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
     inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
-    return float(times[i]) + h * float(np.min(inside)) if len(inside) else _zero(times, u, i)
+    return float(times[i]) + h * float(np.min(inside)) if len(inside) else _zero(times, u, line)
 
 
 def _zero(times: Array, u: Array, i: int) -> float:

@@ -1,6 +1,7 @@
 """The events of a trial: rows for their times and counts, and the list of all instants."""
 
 from collections.abc import Iterator, Mapping
+from itertools import zip_longest
 
 import numpy as np
 
@@ -22,6 +23,11 @@ from .verdict import verdict
 
 Study = tuple[Ladder, str, Convergence]
 """What a ladder says of a quantity."""
+NEVER = "engine: the event never happens in its motion"
+TOO_SHORT = (
+    "adapter: none is found, and with a step of {:.3g} s that is sure of nothing: it comes too "
+    "soon, or what it ends or begins lasts too few steps"
+)
 LATER = "say so by `tube`, as `tube: 2 ms` at the top of the file: it is then read so much later"
 
 
@@ -47,8 +53,8 @@ def judge(
 def _count(trial: Trial, event: str, found: Array) -> Comparison:
     """Whether the event happens as often as in the reference, as far as steps can tell."""
     name, most = f"{event}.count", len(trial.events[event])
-    least = trial.surely(event, trial.step)
-    off = float(max(least - len(found), len(found) - most, 0))
+    least = most if len(found) == most else len(trial.surely(event, trial.step))
+    off = trial.miscounted(event, len(found), trial.step)
     short = f" (of which {least} last long enough for this step)" if least < most else ""
     why = f"reference {most}{short}, engine {len(found)}"
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
@@ -57,12 +63,14 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
 
 def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
     """Times or states in their order, as many as both have; the count is another row's matter."""
-    wanted, times = trial.wanted(name), trial.events[trial.quantity(name).part]
-    both = min(len(wanted), len(found))
+    event = trial.quantity(name).part
+    times, partners = trial.events[event], trial.partners(event, len(found), trial.step)
+    both = len(partners)
     if not both:
-        why = "engine: the event never happens in its motion"
+        told = not len(times) or len(trial.surely(event, trial.step))
+        why = NEVER if told else TOO_SHORT.format(trial.step)
         return row(trial, name, REFUSED, because=why)
-    error = metric.error(found[:both], wanted[:both])
+    error = metric.error(found[:both], trial.wanted(name)[partners])
     climbs = list(_climbed(trial, name, runs))
     held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
     why = cause(held, runs.finer, trial.plan.simplified)
@@ -71,7 +79,7 @@ def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
         why = f"number {error.at + 1}, of which the largest step cannot be sure; before it: {why}"
     words = "; ".join(filter(None, (why, spread(trial, name))))
     reached = verdict(trial, name, error.largest, held, words)
-    return judged(trial, name, reached, error, float(times[error.at]))
+    return judged(trial, name, reached, error, float(times[partners[error.at]]))
 
 
 def spread(trial: Trial, name: str) -> str:
@@ -89,21 +97,27 @@ def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
     """
     wanted, event = trial.wanted(name), trial.quantity(name).part
     for ladder, climbed in runs.ladders.items():
-        told, first = {h: trial.surely(event, h) for h in climbed}, _first(trial, name, climbed)
-        errors = {
-            h: metric.error(samples[name][:first], wanted[:first]).largest
-            if told[h] <= len(samples[name]) <= len(wanted)
-            else np.inf
-            for h, samples in sorted(climbed.items())
-        }
+        first = _first(trial, name, climbed)
+
+        def off(h: float, found: Array, first: int = first) -> float:
+            least = max(first, len(trial.surely(event, h))) if len(found) < len(wanted) else first
+            if not least <= len(found) <= len(wanted):
+                return np.inf
+            partners = trial.partners(event, len(found), h)[:first]
+            return metric.error(found[:first], wanted[partners]).largest
+
+        errors = {h: off(h, samples[name]) for h, samples in sorted(climbed.items())}
         if errors and len(wanted):
             yield ladder, name, instants(errors, trial.allowed(name) or np.inf)
 
 
 def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:
     """How many of its events are compared on a ladder."""
-    event = trial.quantity(name).part
-    return max(1, min((trial.surely(event, h) for h in climbed), default=1))
+    event, most = trial.quantity(name).part, len(trial.wanted(name))
+    whole = all(len(samples[name]) == most for samples in climbed.values())
+    if whole and not trial.case.events[event].crosses:
+        return max(1, most)
+    return max(1, min((len(trial.surely(event, h)) for h in climbed), default=1))
 
 
 def listed(trial: Trial, samples: Samples) -> list[Instant]:
@@ -118,11 +132,20 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
             event=event,
             k=k,
             time=_told(trial, event, t),
-            difference=_told(trial, event, t - wanted[k - 1]) if k <= len(wanted) else None,
+            difference=None if wanted is None else _told(trial, event, t - wanted),
         )
-        for event, wanted in ((name, times.tolist()) for name, times in trial.events.items())
-        for k, t in enumerate(samples.get(f"{event}.time", np.zeros(0)).tolist(), start=1)
+        for event, times in trial.events.items()
+        for found in [samples.get(f"{event}.time", np.zeros(0))]
+        for k, (t, wanted) in enumerate(_paired(trial, event, found, times), start=1)
     ]
+
+
+def _paired(
+    trial: Trial, event: str, found: Array, times: Array
+) -> Iterator[tuple[float, float | None]]:
+    """Each of the engine's times [s] with that of the reference, where it has a partner."""
+    wanted = times[trial.partners(event, len(found), trial.step)].tolist()
+    return zip_longest(found.tolist(), wanted)
 
 
 def _told(trial: Trial, event: str, number: float) -> float:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, cast
 
@@ -34,7 +34,7 @@ class Rung:
 
     bounds: what is read, and how large it may become and still be a motion. poses: whether the
     bodies' places and attitudes are kept beside it. fastest: how fast joints turn in the reference
-    [rad/s], in space, where turns are counted.
+    [rad/s], in space, where turns are counted. shares: how the rests of its events are read.
     """
 
     case: Case
@@ -45,6 +45,7 @@ class Rung:
     bounds: Mapping[str, float]
     poses: bool = False
     fastest: float = 0.0
+    shares: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -89,7 +90,7 @@ def _run(rung: Rung) -> Samples:
         if not np.all(np.abs(samples[name]) < most):
             raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
     poses = sample_columns(trajectory) if rung.poses else {}
-    return {**samples, **poses, **_events(case, trajectory)}
+    return {**samples, **poses, **_events(rung, trajectory)}
 
 
 def sample_columns(trajectory: Trajectory) -> Samples:
@@ -115,23 +116,25 @@ def _answers(rung: Rung) -> Samples:
     return samples
 
 
-def _events(case: Case, trajectory: Trajectory) -> Samples:
+def _events(rung: Rung, trajectory: Trajectory) -> Samples:
     """Times (K,) of every event, as `event.time`, and states (K,) at it, from the engine's record.
 
     The states are those that the case bounds; what cannot be read from the record is left out.
     """
     found: dict[str, Array] = {}
-    if trajectory.record is None:
+    case, record = rung.case, trajectory.record
+    if record is None:
         return found
     for name, event in case.events.items():
         with suppress(KeyError):  # a reaction that is not recorded at every step
-            found[f"{name}.time"] = engine_events(case.scene, trajectory.record, event)
+            share = rung.shares.get(name, 0.0)
+            found[f"{name}.time"] = engine_events(case.scene, record, event, share)
     for name in case.allow:
         at = at_event(name, case.events)
         if at is not None and f"{at.event}.time" in found:
             times = found[f"{at.event}.time"]
             with suppress(KeyError):
-                found[name] = engine_states(case, trajectory.record, at, times)
+                found[name] = engine_states(case, record, at, times)
     return found
 
 

@@ -15,9 +15,9 @@ from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
 from ...system.table_text import why
 from ..events.states import reference_states
-from ..events.times import reference_events, surely
+from ..events.times import reading, reference_events, surely
 from .answers import plans
-from .ladder import judged_step
+from .ladder import judged_step, ladders
 from .start import first
 
 NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
@@ -146,12 +146,39 @@ class Trial:
             for name, event in self.case.events.items()
         }
 
-    def surely(self, event: str, step: float) -> int:
-        """How many of the reference's events an engine with this step has to tell."""
+    def surely(self, event: str, step: float) -> NDArray[np.int64]:
+        """Which of the reference's events an engine with this step has to tell."""
         record, named = self.reference.record, self.case.events[event]
         if record is None:
-            return 0
-        return surely(self.case.scene, record, named, self.events[event], step)
+            return np.arange(0)
+        share = self.shares[event]
+        return surely(self.case.scene, record, named, self.events[event], step, share)
+
+    def miscounted(self, event: str, count: int, step: float) -> float:
+        """By how many an engine's events are fewer than such steps tell, or more than there are."""
+        most = len(self.events[event])
+        least = most if count >= most else len(self.surely(event, step))
+        return float(max(least - count, count - most, 0))
+
+    def partners(self, event: str, count: int, step: float) -> NDArray[np.int64]:
+        """Which of the reference's events so many of an engine's are compared with, in order."""
+        most = len(self.events[event])
+        if count < most and len(sure := self.surely(event, step)) == count:
+            return sure
+        return np.arange(min(count, most))
+
+    @cached_property
+    def shares(self) -> dict[str, float]:
+        """How rests are read, of each event: at the smallest step of all ladders too."""
+        record, scene = self.reference.record, self.case.scene
+        if record is None:
+            return dict.fromkeys(self.case.events, 0.0)
+        found = ladders(self.case, self.engine, self.plan)
+        finest = min(step for ladder in found for step in ladder.steps)
+        return {
+            name: reading(scene, record, event, self.events[name], finest)
+            for name, event in self.case.events.items()
+        }
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:
@@ -166,6 +193,12 @@ class Trial:
     def away(self, distance: float) -> NDArray[np.bool_]:
         """Which samples (N,) are at least `distance` [s] from where the reference switches."""
         return self._from_switches >= distance
+
+    @cached_property
+    def behind(self) -> NDArray[np.bool_]:
+        """Which samples (N,) come after the first switch of the reference."""
+        first = float(np.min(self.reference.switches, initial=np.inf))
+        return self.case.times > first
 
     @cached_property
     def _from_switches(self) -> Array:
