@@ -215,3 +215,43 @@ def test_what_stays_beside_an_event_is_not_the_steps() -> None:
         "falls with order 2.0; one number for friction: pin"
     )
     assert "one number" not in cause(replace(found, usable_step=1e-3), simplified="one number")
+
+
+@pytest.mark.mutant("where an engine is late by a step less some, that some is its model")
+def test_an_impact_that_is_seen_late_on_every_rung_is_no_model() -> None:
+    """It is a little behind a whole step, of any of them: each is late by its step less as much."""
+    early = STEPS[0] / 4
+    rungs = {h: REFERENCE + np.where(T > 0.5, 2.0 * (h - early), 0.0) for h in STEPS}
+    given: Any = {"exponents": (1, 2), "allow": 1e-4, "floor": 1e-13}
+    assert study(rungs, REFERENCE, **given, behind=T > 0.5).verdict == FALLS
+    blamed = study(rungs, REFERENCE, **given)
+    assert (blamed.verdict, blamed.limit) == (ANOTHER, pytest.approx(2 * early))
+
+
+@pytest.mark.mutant("the declared order is the ladder's, though it falls more slowly")
+def test_what_falls_more_slowly_than_declared_has_no_limit_yet(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rungs = {h: REFERENCE + T * h**0.86 for h in STEPS}
+    found = judge(rungs, p=4, allow=1e-5)
+    assert found.verdict == FALLS
+    assert found.limit is not None
+    assert found.uncertainty is not None
+    assert found.limit < 2 * found.uncertainty
+    monkeypatch.setattr(convergence, "_doubt", lambda *_: 0.0)
+    assert judge(rungs, p=4, allow=1e-5).verdict == ANOTHER
+
+
+def test_a_model_is_told_behind_an_event_too() -> None:
+    found = study(
+        {
+            h: u + np.where(T > 0.5, h / 100, 0.0)
+            for h, u in ladder(p=1, c=0.01, model=3e-3).items()
+        },
+        REFERENCE,
+        exponents=(1, 2),
+        allow=1e-3,
+        floor=1e-13,
+        behind=T > 0.5,
+    )
+    assert found.verdict == ANOTHER

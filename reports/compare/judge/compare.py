@@ -199,4 +199,5 @@ def _study(
         allow=trial.allowed(name) or float("inf"),
         floor=floor(trial, name, min(climbed)),
         away=trial.away(AWAY * max(climbed))[keep],
+        behind=trial.behind[keep],
     )

@@ -60,12 +60,13 @@ def study(
     allow: float,
     floor: float,
     away: NDArray[np.bool_] | None = None,
+    behind: NDArray[np.bool_] | None = None,
 ) -> Convergence:
     """Judges samples (N,) by step; the steps double from the smallest on.
 
     floor: the difference that rounding alone can make at the smallest step. away: the samples that
     are away from events, of which alone order and limit are taken: beside an event a sample is
-    before it on one rung and after it on the next.
+    before it on one rung and after it on the next. behind: the samples that follow an event.
     """
     steps = sorted(ladder)
     errors = {h: metric.largest(ladder[h] - reference) for h in steps}
@@ -87,6 +88,9 @@ def study(
     uncertainty = max(uncertainty, enlarged, _noise(rungs))
     off = metric.largest(value - reference)
     settled = _settled(off, uncertainty, allow)
+    doubt = _doubt(rungs, exponents[0], ~keep[keep] if behind is None else behind[keep])
+    if settled in (WITHIN, ANOTHER) and off <= ANOTHER_BEYOND * doubt:
+        settled, uncertainty = None, max(uncertainty, doubt)
     limit = metric.round_to_floor(off, enlarged), metric.round_up_to_floor(uncertainty, enlarged)
     if settled is None:
         return Convergence(size.verdict, errors, usable, *size.orders, *limit)
@@ -121,6 +125,22 @@ def _settled(off: float, uncertainty: float, allow: float) -> str | None:
     if off > ANOTHER_BEYOND * uncertainty:
         return WITHIN if off <= allow else ANOTHER
     return None
+
+
+def _doubt(rungs: Sequence[Array], declared: int, behind: NDArray[np.bool_]) -> float:
+    """How far from its limit the finest rung may be, where the declared exponents do not hold.
+
+    Where the differences fall more slowly than declared, as those of a solver that is stopped too
+    soon or of an engine that is late, as much is left as they would still sum up to. Behind an
+    event their order shows nothing: an engine that sees it at the end of a step is late by what is
+    left of that step, and on h, 2h, 4h … these parts may differ by whole steps, and still all be
+    short of one by the same.
+    """
+    fine, coarse = (metric.sizes(b - a) for a, b in itertools.pairwise(rungs[:3]))
+    last, before = float(np.max(fine)), float(np.max(coarse))
+    slowly = last < before < 2.0 ** (declared - CLEAR) * last
+    left = last**2 / (before - last) if slowly else 0.0
+    return max(left, float(np.max(fine[behind], initial=0.0)))
 
 
 @dataclass(frozen=True)
