@@ -46,7 +46,7 @@ def find(words: Sequence[str]) -> list[Path]:
         elif is_dir:
             mistakes.append(Mistake(word, 0, 0, "", "is a directory; a case is one YAML file"))
         elif path.exists() or path.is_symlink():
-            leads = ": a link that leads nowhere" if path.is_symlink() else ""
+            leads = "" if path.exists() or not path.is_symlink() else ": a link that leads nowhere"
             mistakes.append(Mistake(word, 0, 0, "", f"is no file{leads}"))
         elif path.suffix in SUFFIXES:
             mistakes.append(Mistake(word, 0, 0, "", f"no such file{nearest(path.stem, known)}"))

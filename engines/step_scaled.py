@@ -6,6 +6,7 @@ from functools import lru_cache
 from typing import Any
 
 FORMS = "such as 2h, -1/h or -0.25/h2, where h is the step"
+_MOST = 1e100  # of h, and of what h or its square divides: no step makes that infinite
 _FORM = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(h|/\s*h|/\s*h(?:2|²))")
 
 
@@ -28,7 +29,7 @@ def tied(value: Any) -> bool:
 def _read(text: str) -> Callable[[float], float] | None:
     """The function of h that a text says; None: it says none. Nothing is evaluated."""
     found = _FORM.fullmatch(text.strip())
-    if found is None:
+    if found is None or abs(float(found[1])) > _MOST:
         return None
     factor, power = float(found[1]), found[2].replace(" ", "")
     return {

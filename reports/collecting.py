@@ -88,18 +88,19 @@ def collected(
     earlier: Callable[[], Earlier],
     *,
     long: bool,
+    spare: bool = False,
     write: Callable[[str], Any],
 ) -> list[tuple[Case, list[Key]]]:
     """The wanted cases of a file, or all, each with the rows of the named engines, or of all.
 
-    settings: files of the user's own options, further columns.
+    settings: files of the user's own options, further columns; spare: also of other engines.
     earlier: called only for a file without mistakes.
     write: takes a line where it takes long. Raises CaseError.
     """
     with aloud(write):
         countable()
         cases = load(path, systems=HANDWRITTEN, engines=ENGINES, long=long)
-        engines = choose_engines(names, settings)
+        engines = choose_engines(names, settings, spare=spare)
         cases = [case for case in cases if not wanted or {case.name, path.stem} & {*wanted}]
         if mistakes := too_long(cases, engines):
             raise CaseError(mistakes)

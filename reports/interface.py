@@ -9,6 +9,7 @@ mistakes at once in `mistakes`. What computes is imported by the first call, and
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .batch.task_results import Progress
 
 OWN = "own"  # how the column of a user's own options is called
+SMALLEST = 1e-300
 POSES = ("x", "y", "z", "angle")
 Word = str | Path | Case
 
@@ -146,6 +148,7 @@ def run(
     own = made(Document(Source("options", (), {}), dict(options or {}), []), OWN)
     wanted = asked(found, engines, settings, own=list(own.values()))
     store = usable() if cache else None
+    _in_range(jobs=(jobs, 1.0))
     with _aloud(progress) as told:
         report = suite.measure(
             wanted.cases,
@@ -195,6 +198,7 @@ def advise(
     from .batch.cache.store import usable
     from .batch.request import asked
 
+    _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
     wanted = asked(load(word), engines, ["shipped"])
     bar = Asked(tolerance, margin)
     store = usable() if cache else None
@@ -206,6 +210,21 @@ def advise(
     if wanted.mistakes:
         raise CaseError(wanted.mistakes)
     return pd.DataFrame(map(vars, found))
+
+
+def _in_range(**numbers: tuple[float | None, float]) -> None:
+    """Raises CaseError with every number that is below its least one, or not finite."""
+    mistakes = [
+        Mistake(name, 0, 0, "", f"should be a number {_from(least)}, is {number!r}")
+        for name, (number, least) in numbers.items()
+        if number is not None and not least <= number < inf
+    ]
+    if mistakes:
+        raise CaseError(mistakes)
+
+
+def _from(least: float) -> str:
+    return "above 0" if least < 1.0 else f"from {least:g} on"
 
 
 @contextmanager

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from fnmatch import fnmatch
 from functools import partial
 from pathlib import Path
@@ -22,6 +23,7 @@ from .pytest_options import pytest_addoption as pytest_addoption
 
 if TYPE_CHECKING:
     from ..cases.case import Case
+    from ..cases.mistake import CaseError
     from .batch.suite import Report
     from .collecting import Earlier
     from .data.row import Comparison
@@ -100,9 +102,13 @@ class CaseFile(pytest.File):
         option, earlier = self.config.getoption, partial(_earlier, self.session)
         long, names = bool(option("textmech_allow_long")), option("textmech_engine") or []
         wanted, own = option("textmech_case") or [], _settings(self.config)
+        spare = not option("textmech_settings")  # what the ini file names may be of other engines
         try:
-            found = collected(self.path, names, own, wanted, earlier, long=long, write=_tell)
+            found = collected(
+                self.path, names, own, wanted, earlier, long=long, spare=spare, write=_tell
+            )
         except CaseError as error:
+            error = _as_typed(error)
             if {mistake.file for mistake in error.mistakes} == {str(self.path)}:
                 yield MistakeItem.from_parent(self, name="mistakes", text=str(error))
                 return
@@ -114,6 +120,14 @@ class CaseFile(pytest.File):
                 how = "" if realised == "native" else f".{realised}"
                 name = f"{case.name}-{engine}.{setting}{how}-{quantity}"
                 yield ComparisonItem.from_parent(self, name=name, case=case, key=key)
+
+
+def _as_typed(error: "CaseError") -> "CaseError":
+    """The mistakes, with options called as pytest's are."""
+    from ..cases.mistake import CaseError
+
+    ours = {word: f"--textmech-{word[2:]}" for word in ("--engine", "--settings")}
+    return CaseError([replace(m, file=ours.get(m.file, m.file)) for m in error.mistakes])
 
 
 def _settings(config: pytest.Config) -> list[str]:

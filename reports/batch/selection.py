@@ -78,6 +78,8 @@ def sound_cases(
                     mistakes.append(Mistake(case.source.file, 0, 0, "", what))
         except CaseError as error:
             mistakes += _settings(word) or error.mistakes
+        except OSError as error:  # in a folder that may not be read, or of a name too long for any
+            mistakes.append(Mistake(word, 0, 0, "", f"cannot be read: {error.strerror}"))
     return sound(list(cases.values()), mistakes), mistakes
 
 
@@ -128,14 +130,14 @@ def _cases(word: str, known: Engines | None, long: bool) -> list[Case]:
 
 
 def choose_engines(
-    names: Sequence[str], settings: Sequence[str], *, long: bool = False
+    names: Sequence[str], settings: Sequence[str], *, long: bool = False, spare: bool = False
 ) -> list[Engine]:
     """Engines × settings, by name; none means all. A name may carry its setting (`mujoco.tuned`).
 
     A setting that no engine offers is a file of the user's own options, a further column. long:
-    whether these may ask for any number of iterations. Raises CaseError, also where none of the
-    named engines has any of a file's options; an engine that nobody named and that cannot be
-    imported is a warning.
+    whether these may ask for any number of iterations. spare: whether a file may be of none of the
+    named engines. Raises CaseError, also where else none of them has any of a file's options; an
+    engine that nobody named and that cannot be imported is a warning.
     """
     for word in names:
         _known(word)
@@ -158,7 +160,7 @@ def choose_engines(
             for name, engine in own.items()
             if not names or name in names or f"{name}.{file.stem}" in names
         ]
-        if not used:
+        if not used and not spare:
             of = ", ".join(f"{name}.{file.stem}" for name in own) or "no engine"
             what = f"no chosen engine uses it, which is for {of}"
             raise CaseError([Mistake("--settings", 0, 0, str(file), what)])
@@ -176,6 +178,9 @@ def _files(words: Sequence[str], taken: Set[str]) -> list[Path]:
     for word in words:
         file = Path(word)
         other = files.setdefault(file.stem, file)
+        if what := _unreadable(file):
+            mistakes.append(Mistake("--settings", 0, 0, word, what))
+            continue
         if not word or file.is_dir():
             what = "is no file; own settings are one YAML file" if word else "has no name"
         elif file.exists() and not NAME.fullmatch(file.stem):
@@ -190,6 +195,14 @@ def _files(words: Sequence[str], taken: Set[str]) -> list[Path]:
     if mistakes:
         raise CaseError(mistakes)
     return list(files.values())
+
+
+def _unreadable(file: Path) -> str:
+    try:
+        file.is_dir()
+    except OSError as error:
+        return f"cannot be read: {error.strerror}"
+    return ""
 
 
 def choose_book(names: Sequence[str], settings: Sequence[str]) -> bool:

@@ -32,7 +32,7 @@ def rows(
     if shared is not None:
         ending.with_parent()
     names = [name for name in used if not name.startswith(f"{BOOK}.")]
-    engines = choose_engines(names, settings) if names else []
+    engines = choose_engines(names, settings, spare=True) if names else []
     try:
         return suite.measure(
             cases,

@@ -6,10 +6,19 @@ from pathlib import Path
 
 import click
 
-from ...cases.mistake import CaseError
+from ...cases.mistake import CaseError, Mistake
 from ..show.console import say, tell
 from .done import finished
-from .options import Folder, allow_long, as_json, jobs, named_engines, no_cache, overwrite
+from .options import (
+    Finite,
+    Folder,
+    allow_long,
+    as_json,
+    jobs,
+    named_engines,
+    no_cache,
+    overwrite,
+)
 
 PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what each allows
 
@@ -19,14 +28,14 @@ PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what eac
 @named_engines()
 @click.option(
     "--tolerance",
-    type=click.FloatRange(min=0, min_open=True),
+    type=Finite(min=0, min_open=True),
     metavar="X",
     help="What each quantity may be off, as a part of its own size (1e-3: 0.1 %), and an event's "
     "time of the duration; without it, what the case allows.",
 )
 @click.option(
     "--margin",
-    type=click.FloatRange(min=1),
+    type=Finite(min=1),
     default=2.0,
     show_default=True,
     help="How often the worst error has to fit into what is allowed.",
@@ -103,7 +112,7 @@ def advise(
     chosen = choose_cases(cases, long=allow_long)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken and that nobody named
-        engines = choose_engines([name.partition(".")[0] for name in names], ["shipped"])
+        engines = choose_engines(_without_setting(names), ["shipped"])
     if long := too_long(chosen, engines):
         raise CaseError(long)
     used = None if no_cache else store.usable()
@@ -123,3 +132,11 @@ def advise(
     if out is not None:
         write.advice(table, out, overwrite=overwrite)
         tell(f"{len(table)} rows written to {out / write.ADVICE}")
+
+
+def _without_setting(names: tuple[str, ...]) -> list[str]:
+    """The engines' names. Raises CaseError where one has a setting, which is what is looked for."""
+    what = "advise looks for the setting: name the engine alone"
+    if mistakes := [Mistake("--engine", 0, 0, name, what) for name in names if "." in name]:
+        raise CaseError(mistakes)
+    return list(names)

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -49,6 +50,8 @@ def causes(
     chosen = choose_cases(cases, long=allow_long)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken and that nobody named
+        if names:
+            choose_engines(names, [])  # a mistake in a setting is found, and all are needed
         engines = choose_engines([name.partition(".")[0] for name in names], [])
     if long := too_long(chosen, engines):
         raise CaseError(long)
@@ -64,6 +67,9 @@ def causes(
             known=known,
             store=used,
         )
+    if names:
+        mine = [c for c in report.causes if {c.engine, f"{c.engine}.{c.setting}"} & {*names}]
+        report = replace(report, causes=mine)
     if known and (told := cures.carried(report.causes, known.causes)):
         tell(told)
     if wants_json:

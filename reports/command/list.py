@@ -38,13 +38,13 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
     named = [case for case in every if _has(f"{case.name} {case.title} {case.origin}", words)]
     beside = [case for case in every if case not in named and _has(_held(case.file), words)]
     cases = [*named, *beside]
+    if not cases:
+        raise click.UsageError(f"no shipped case has {' and '.join(words)} in it")
     if wants_json:
         from ..show import document  # which needs all that a run's rows need
 
         document.write(document.of_cases(cases))
         return
-    if not cases:
-        raise click.UsageError(f"no shipped case has {' and '.join(words)} in it")
     for title, files in (("Textbook mechanics", of_the_book()), ("What people ask", questions())):
         group = [case for case in named if case.name.partition(".")[0] in files]
         if group:

@@ -5,12 +5,13 @@ import os
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import wraps
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ...cases.mistake import CaseError
+from ...cases.mistake import CaseError, Mistake
 from ..data.ownership import OVERWRITE
 from ..system.limit import choose
 from ..system.temporary_folder import adopt
@@ -20,9 +21,23 @@ Decorated = Callable[[Any], Any]
 named_cases = click.argument("cases", nargs=-1, metavar="[CASES]...")
 
 
+MOST_JOBS = 1024
 processes = click.option(
-    "--jobs", type=click.IntRange(min=1), help="Processes; as many as cores by default."
+    "--jobs",
+    type=click.IntRange(min=1, max=MOST_JOBS),
+    help="Processes; as many as cores by default.",
 )
+
+
+class Finite(click.FloatRange):
+    """A number in a range; nan, which compares with no bound, and inf are none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number."""
+        number = super().convert(value, param, ctx)
+        if not isfinite(number):
+            self.fail(f"{number} is no finite number", param, ctx)
+        return number
 
 
 def _chosen(context: click.Context, option: click.Parameter, seconds: float | None) -> None:
@@ -38,7 +53,7 @@ def jobs(command: Any) -> Any:
     """How the work is spread over processes, and how long one of them may take for a task."""
     decorated = click.option(
         "--time-limit",
-        type=click.FloatRange(min=0, min_open=True),
+        type=Finite(min=0, min_open=True),
         expose_value=False,
         callback=_chosen,
         metavar="S",
@@ -100,17 +115,25 @@ def as_json(command: Callable[..., None]) -> Callable[..., None]:
     def answered(*args: Any, wants_json: bool, **kwargs: Any) -> None:
         try:
             command(*args, wants_json=wants_json, **kwargs)
-        except CaseError as error:
-            if not wants_json:
+        except (CaseError, click.ClickException, OSError) as error:
+            if not wants_json or isinstance(error, BrokenPipeError):
                 raise
             from ..show import document
 
-            found = document.mistakes(error.mistakes)
+            found = document.mistakes(_mistakes(error))
             document.write({"mistakes": found, "exit_code": BAD_INPUT})
             raise click.exceptions.Exit(BAD_INPUT) from None
 
     what = "Print one JSON document, for scripts."
     return click.option("--json", "wants_json", is_flag=True, help=what)(answered)
+
+
+def _mistakes(error: CaseError | click.ClickException | OSError) -> Sequence[Mistake]:
+    if isinstance(error, CaseError):
+        return error.mistakes
+    if isinstance(error, OSError):
+        return [Mistake(str(error.filename or ""), 0, 0, "", error.strerror or str(error))]
+    return [Mistake("", 0, 0, "", error.format_message())]
 
 
 # A folder that is named on the command line.

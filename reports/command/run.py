@@ -119,17 +119,22 @@ def run(
     mistakes = report.mistakes
     if full and mistakes:
         out = None  # what is left is no full run
-    if out is not None:
-        written(write.tables(report, report.cases), out, overwrite=overwrite)
-        if page:
-            from ..page.page import write_committed
-
-            write_committed(report, report.cases, out, out, overwrite=overwrite)
-            DONE.append(f"their page is in {out}")
-    if keep is not None:
-        kept.keep(report, keep, overwrite=overwrite)
-        DONE.append(f"the trajectories are in {keep}")
     known = cures.known(report.cases, report.causes)
+    try:
+        if out is not None:
+            written(write.tables(report, report.cases), out, overwrite=overwrite)
+            if page:
+                from ..page.page import write_committed
+
+                write_committed(report, report.cases, out, out, overwrite=overwrite)
+                DONE.append(f"their page is in {out}")
+        if keep is not None:
+            kept.keep(report, keep, overwrite=overwrite)
+            DONE.append(f"the trajectories are in {keep}")
+    except OSError:  # such as a full disk: what was computed is said all the same
+        if not wants_json:
+            terminal.show(report, detailed=bool(cases), written=None, cures=known)
+        raise
     code = BAD_INPUT if mistakes else FAILED if report.fails else 0
     if wants_json:
         document.write(document.of_run(report, mistakes, cures=known, written=out, exit_code=code))

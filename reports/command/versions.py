@@ -66,7 +66,8 @@ def versions(
     cases = [case.name for case in choose_cases(chosen, known=None, long=allow_long)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken here may not be asked for
-        choose_engines([], settings, long=allow_long)  # a mistake in own options is found now
+        names = sorted({release.engine for release in releases})
+        choose_engines(names, settings, long=allow_long)  # a mistake in own options is found now
     measured = [*measure(releases, chosen, settings, jobs, allow_long, tell)]
     found = steps(measured)
     if out is not None:

@@ -48,16 +48,27 @@ GIB = 2**30
 def hold(jobs: int) -> None:
     """From now on this process has its share of the memory, as one of so many, where that is told.
 
-    What it asks for beyond is refused, as a MemoryError in Python. Room that is only reserved, as
-    for a graphics card, does not count.
+    It is beside what it has already, which may be all that a notebook holds. What it asks for
+    beyond is refused, as a MemoryError in Python. Room that is only reserved, as for a graphics
+    card, does not count.
     """
     with suppress(ImportError, AttributeError, OSError, ValueError):  # no POSIX, or a lower limit
         import resource
 
-        most = int(GIB * _gib(jobs))
+        most = _held() + int(GIB * _gib(jobs))
         hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
         if hard == resource.RLIM_INFINITY or most < hard:
             resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
+
+
+def _held() -> int:
+    """Bytes of data that this process has, as its parent had them; 0 where nothing tells."""
+    with (
+        suppress(OSError, ValueError, IndexError),
+        open("/proc/self/status", encoding="ascii") as told,
+    ):
+        return 1024 * next(int(line.split()[1]) for line in told if line.startswith("VmData:"))
+    return 0
 
 
 def memory_limit_text() -> str:

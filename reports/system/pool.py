@@ -259,10 +259,10 @@ def _deaf() -> Iterator[None]:
 
 def _serve(calls: Connection, words: Any, jobs: int) -> None:
     """Answers calls in a worker process, one of `jobs`, until its parent is gone."""
-    limit.hold(jobs)
     lead_group()
     threading.Thread(target=_with_parent, daemon=True).start()
     threading.Thread(target=_tell, args=(words,), daemon=True).start()
+    limit.hold(jobs)  # a thread that finds no room as it starts is waited for without end
     silence()
     os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
     for number in ending.known_signals():  # the terminal's reach all: the parent decides

@@ -18,7 +18,7 @@ from ..output.diff.columns import ERRORS
 from ..output.diff.folder import Folder, opened
 from ..system import child
 from ..system.temporary_folder import passing
-from .release import Release, place
+from .release import Release, alike, place
 
 ENVIRONMENTS = "versions"  # in the user's cache
 COMMAND = """\
@@ -104,7 +104,8 @@ def _measured(release: Release, code: int, said: str, out: Path, asked: Sequence
         above = "" if mistakes else ": what is wrong is said above"
         raise CaseError([_wrong(release, f"was not run{above}"), *mistakes])
     (folder,) = opened({str(release): out})
-    if (version := folder.versions.get(release.engine)) != release.version:
+    version = folder.versions.get(release.engine)
+    if version is None or not alike(version, release.version):
         what = f"is asked for, and Python finds {version or 'none'}"
         raise CaseError([_wrong(release, what)])
     return Measured(release, folder)

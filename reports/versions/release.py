@@ -20,6 +20,7 @@ from ...cases.mistake import CaseError, Mistake, nearest
 from ..system import child
 from ..system.temporary_folder import passing
 
+ZEROS = re.compile(r"(\.0)+(?![.\d])")
 VERSION = re.compile(r"\d[\w.+!]*", re.ASCII)
 PINNED = re.compile(r"(?P<name>[^=<>~!]*)(?P<sign>[=<>~!]+)(?P<version>.*)", re.DOTALL)
 PIECE = re.compile(r"([\w.-]+) ?\(?== ?([\w.+!]+)\)?")
@@ -37,6 +38,11 @@ class Release:
 
     def __str__(self) -> str:
         return f"{self.engine}=={self.version}"
+
+
+def alike(one: str, other: str) -> bool:
+    """Whether two versions are one: 7.3 is 7.3.0, and pip takes it so."""
+    return ZEROS.sub("", one) == ZEROS.sub("", other)
 
 
 def parted(words: Sequence[str]) -> tuple[list[Release], list[str]]:
@@ -78,7 +84,7 @@ def place(release: Release, among: Path, tell: Callable[[str], None]) -> Path | 
 
     Raises CaseError where it cannot be had.
     """
-    if here(release.engine) == release.version:
+    if alike(here(release.engine) or "", release.version):
         return None
     tag = f"{sys.implementation.cache_tag}-{platform.system()}-{platform.machine()}"
     folder = among / f"{release}-{tag}"
@@ -105,7 +111,7 @@ def here(engine: str) -> str | None:
 
 def _holds(folder: Path, release: Release) -> bool:
     found = metadata.distributions(path=[str(folder)])
-    return any((one.name, one.version) == (release.engine, release.version) for one in found)
+    return any(one.name == release.engine and alike(one.version, release.version) for one in found)
 
 
 def _kept(made: Path, folder: Path) -> None:

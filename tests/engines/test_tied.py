@@ -29,7 +29,23 @@ def test_what_follows(text: str) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["h", "2", "RK4", "2hh", "2h2", "1/h3", "1/(h)", "2*h", "h/2", "nanh", "infh", "", "1e5"],
+    [
+        "h",
+        "2",
+        "RK4",
+        "2hh",
+        "2h2",
+        "1/h3",
+        "1/(h)",
+        "2*h",
+        "h/2",
+        "nanh",
+        "infh",
+        "1e101h",
+        "-1e309/h",
+        "",
+        "1e5",
+    ],
 )
 def test_what_does_not(text: str) -> None:
     assert not tied(text)
