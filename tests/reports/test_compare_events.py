@@ -64,7 +64,8 @@ def test_times_above_the_tolerance_fail_or_are_beyond(trial: Make, stopping: Cas
 def test_a_late_event_that_the_ladder_does_not_look_at_is_named(
     trial: Make, stopping: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Trial, "surely", lambda self, event, step: 1)  # the second is too short
+    monkeypatch.setattr(Trial, "surely", lambda self, event, step: np.arange(1))  # then too short
+    monkeypatch.setattr(Event, "crosses", property(lambda self: True))
     late = {"stops": (STOPS[0], STOPS[1] + 0.05), "setting": "shipped", "own_step": 1e-3}
     found = row(stopped(trial, stopping, **late), "stops.time")
     assert (found.verdict, found.error) == (BEYOND, pytest.approx(0.05, rel=1e-3))

@@ -171,7 +171,7 @@ def test_a_file_that_no_chosen_engine_uses_is_a_mistake(tmp_path: Path) -> None:
     (one,) = choose_engines(["pymunk.mine"], [str(file)])
     assert (one.name, one.setting) == ("pymunk", "mine")
     assert "mine" in {one.setting for one in choose_engines(["pymunk"], [str(file)])}
-    blind = otherwise(selection, "        if not used:\n", "        if False:\n")
+    blind = otherwise(selection, "        if not used and not spare:\n", "        if False:\n")
     assert [one.setting for one in blind.choose_engines(["pymunk.shipped"], [str(file)])] == [
         "shipped"
     ]

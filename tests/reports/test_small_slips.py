@@ -132,7 +132,7 @@ CROSSES = 0.7  # s: then what is left of it changes its sign
 
 def coasting(after: float) -> tuple[Scene, Trajectory]:
     """A block that friction stops, and whose rate is then so small a part."""
-    times = np.arange(10001) * STEP
+    times = np.arange(10001, dtype=np.float64) * STEP
     states = np.zeros((len(times), 6))
     states[:, VX] = np.where(times < REST, 1 - times / REST, after * (CROSSES - times))
     body = Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})

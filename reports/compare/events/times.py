@@ -169,12 +169,19 @@ def _leaves(u: Array, still: float) -> bool:
     return bool(np.max(np.abs(u)) > still)
 
 
-def engine_events(scene: Scene, record: Trajectory, event: Event, share: float = 0.0) -> Array:
+def engine_events(
+    scene: Scene, record: Trajectory, event: Event, share: float = 0.0, count: int | None = None
+) -> Array:
     """Times (K,) [s] of the event, from every step of an engine.
 
-    share: as `reading` says. Raises KeyError where the record does not hold the quantity.
+    share: as `reading` says; an engine that creeps or trembles above it is read by the least larger
+    one with which the event happens `count` times. Raises KeyError where the record does not hold
+    the quantity.
     """
-    return _read(record.times, event.falling(observe(scene, record, event.quantity)), event, share)
+    times, u = record.times, event.falling(observe(scene, record, event.quantity))
+    larger = [each for each in reversed(SHARES) if each > share > 0.0 and count is not None]
+    found = (_read(times, u, event, each) for each in (share, *larger))
+    return next((one for one in found if len(one) == count), _read(times, u, event, share))
 
 
 def _read(times: Array, u: Array, event: Event, share: float) -> Array:
@@ -233,7 +240,8 @@ def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tu
 
     u, _, pieces = _pieces(scene, record, event)
     begin, end = float(record.times[0]), float(record.times[-1])
-    times = begin + step * np.arange(int((end - begin) / step + WHOLE) + 1)
+    count = int((end - begin) / step + WHOLE)
+    times = begin + step * np.arange(count + 1, dtype=np.float64)
     found = np.zeros_like(times)
     for rows in pieces:
         bends = [0, *bent(record.times[rows], scene.corners()), len(rows) - 1]
@@ -294,7 +302,7 @@ def surely(
         for start, end in pairwise([float(record.times[0]), *happened.tolist()])
     ]
     long, high = SURE * STEPS * step, SURE * SMALL * largest
-    return np.flatnonzero([lasts >= long and height >= high for lasts, height in humps])
+    return np.flatnonzero([bool(lasts >= long and height >= high) for lasts, height in humps])
 
 
 def _through(times: Array, u: Array, i: int, line: int) -> float:

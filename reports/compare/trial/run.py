@@ -34,7 +34,8 @@ class Rung:
 
     bounds: what is read, and how large it may become and still be a motion. poses: whether the
     bodies' places and attitudes are kept beside it. fastest: how fast joints turn in the reference
-    [rad/s], in space, where turns are counted. shares: how the rests of its events are read.
+    [rad/s], in space, where turns are counted. events: how the rests of each are read, and how
+    often it happens in the reference.
     """
 
     case: Case
@@ -45,7 +46,7 @@ class Rung:
     bounds: Mapping[str, float]
     poses: bool = False
     fastest: float = 0.0
-    shares: Mapping[str, float] = field(default_factory=dict)
+    events: Mapping[str, tuple[float, int]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -127,8 +128,8 @@ def _events(rung: Rung, trajectory: Trajectory) -> Samples:
         return found
     for name, event in case.events.items():
         with suppress(KeyError):  # a reaction that is not recorded at every step
-            share = rung.shares.get(name, 0.0)
-            found[f"{name}.time"] = engine_events(case.scene, record, event, share)
+            read_by = rung.events.get(name, (0.0, 0))
+            found[f"{name}.time"] = engine_events(case.scene, record, event, *read_by)
     for name in case.allow:
         at = at_event(name, case.events)
         if at is not None and f"{at.event}.time" in found:

@@ -17,7 +17,7 @@ from ...system.table_text import why
 from ..events.states import reference_states
 from ..events.times import reading, reference_events, surely
 from .answers import plans
-from .ladder import judged_step, ladders
+from .ladder import judged_step
 from .start import first
 
 NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
@@ -151,7 +151,7 @@ class Trial:
         record, named = self.reference.record, self.case.events[event]
         if record is None:
             return np.arange(0)
-        share = self.shares[event]
+        share = self.shares(step)[event]
         return surely(self.case.scene, record, named, self.events[event], step, share)
 
     def miscounted(self, event: str, count: int, step: float) -> float:
@@ -167,18 +167,24 @@ class Trial:
             return sure
         return np.arange(min(count, most))
 
-    @cached_property
-    def shares(self) -> dict[str, float]:
-        """How rests are read, of each event: at the smallest step of all ladders too."""
+    def shares(self, step: float) -> dict[str, float]:
+        """How the rests of each event are read from steps so large."""
         record, scene = self.reference.record, self.case.scene
-        if record is None:
-            return dict.fromkeys(self.case.events, 0.0)
-        found = ladders(self.case, self.engine, self.plan)
-        finest = min(step for ladder in found for step in ladder.steps)
-        return {
-            name: reading(scene, record, event, self.events[name], finest)
-            for name, event in self.case.events.items()
-        }
+        if record is not None and step not in self._shares:
+            self._shares[step] = {
+                name: reading(scene, record, event, self.events[name], step)
+                for name, event in self.case.events.items()
+            }
+        return self._shares.get(step) or dict.fromkeys(self.case.events, 0.0)
+
+    @cached_property
+    def _shares(self) -> dict[float, dict[str, float]]:
+        """Those asked for so far: two ladders ask for the same step."""
+        return {}
+
+    def read_by(self, step: float) -> dict[str, tuple[float, int]]:
+        """Of each event how its rests are read from such steps, and how often it happens."""
+        return {name: (share, len(self.events[name])) for name, share in self.shares(step).items()}
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:
