@@ -13,6 +13,8 @@ ROOT = 1e-15  # s: what the root-finder is asked for
 JUMP = 1e-6  # of the largest value: what a curve leaves open that goes on for a quarter of a step
 MIRRORED = 0.5  # of a fold's size: so well a curve goes on to it; one with no fold is off by twice
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
+FINE = 1e-13  # of the time between two steps: so well a root is found where that is little
+FLAT = 1e-10  # of it: so well an extremum
 
 Curve = Callable[[float], float]
 """t → u."""
@@ -52,7 +54,7 @@ def passing(
             if above > 0.0 > below:
                 hidden = after != times[k]  # it is told by a curve, and falls by this one
                 curve = _curve(times, u, k if hidden else i, bends)
-                yield float(brentq(curve, before, after, xtol=ROOT)), curve
+                yield float(brentq(curve, before, after, xtol=_fine(before, after))), curve
 
 
 def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ()) -> Iterator[float]:
@@ -123,6 +125,11 @@ def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Curve:
     return polynomial(times[rows], u[rows])
 
 
+def _fine(one: float, other: float) -> float:
+    """How well [s] a root between two times is asked for."""
+    return min(ROOT, FINE * abs(other - one))
+
+
 def polynomial(x: Array, y: Array) -> Curve:
     """x → y, of the polynomial through the points: the same one, bit for bit, in every run.
 
@@ -164,7 +171,7 @@ def _hidden(
                 lambda t, sign=sign, curve=curve: sign * curve(t),
                 bounds=(times[begin], times[end]),
                 method="bounded",
-                options={"xatol": LOCATED},
+                options={"xatol": min(LOCATED, FLAT * float(times[end] - times[begin]))},
             )
             if turn.fun <= still:
                 yield float(turn.x), float(sign * turn.fun), k
@@ -191,5 +198,6 @@ def _mirrored(times: Array, u: Array, i: int, bends: Sequence[int]) -> float | N
         on = curve(float(times[beyond]))
         both = min(u[last], u[beyond]) > 0.0 > on
         if both and (off := abs(on / u[beyond] + 1.0)) < MIRRORED:
-            found.append((off, float(brentq(curve, times[last], times[beyond], xtol=ROOT))))
+            xtol = _fine(float(times[last]), float(times[beyond]))
+            found.append((off, float(brentq(curve, times[last], times[beyond], xtol=xtol))))
     return min(found)[1] if found else None  # a curve with one row of the other side tells worse
