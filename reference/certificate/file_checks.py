@@ -268,7 +268,7 @@ def _of_body(case: Case, name: str, start: Placement, seen: Motion, large: Size)
         there = seen.point(Anchor(name, "center"))[0, :2]
         rounded = EPS * float(np.max(np.abs(there))) / length  # rad, of a place far from the origin
         off = abs(math.remainder(math.atan2(y, x) - direction, math.tau))
-        yield max(0.0, off - rounded)
+        yield 0.0 if off <= rounded else off - rounded  # and of NaN it is NaN
 
 
 def _stands(case: Case, at: Anchor, seen: Motion, large: Size) -> Iterator[float]:

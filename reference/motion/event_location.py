@@ -12,8 +12,7 @@ import numpy as np
 from ..system import Array
 
 TOGETHER = 1e-12  # s, of a motion of a second or more: how well an event is located, see `instant`
-ROOT = 1e-15  # s: what the root-finder is asked for, to keep the promise above
-FINE = 1e-13  # of the bracket: what it is asked for in short steps, as of a motion of microseconds
+ROOT = 1e-3  # of that: what the root-finder is asked for, to keep the promise
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
 SOON = tuple(2.0**-k for k in range(16, 2, -1))  # of a step: what begins at zero may fall at once
 TOUCH = 1e-10  # of its values around: what falls no deeper has touched zero, and not fallen
@@ -116,7 +115,7 @@ def first(
             values[: soon + 1] = [x if abs(x) > none else 0.0 for x in values[: soon + 1]]
         elif soon:
             looked, values = [0.0, *points[soon + 1 :]], [values[0], *values[soon + 1 :]]
-        at, touch = crossing(g, looked, values, begins=fresh, spent=i == spent)
+        at, touch = crossing(g, looked, values, begins=fresh, spent=i == spent, together=together)
         if at is not None and (found is None or at < found[1] - together):
             found = i, at
         if touch is not None:
@@ -131,18 +130,19 @@ def crossing(
     *,
     begins: bool,
     spent: bool,
+    together: float = TOGETHER,
 ) -> tuple[float | None, float | None]:
     """Where g first falls through zero, or else where it touches it, of what is known at points."""
     rise = next((i for i, value in enumerate(values) if value > 0.0), None)
     if rise is None:
         if begins and values[-1] < values[0]:
-            return _begun(g, points[-1], spent), None
+            return _begun(g, points[-1], spent, together), None
         top = _near(g, points, values, -1.0)
-        return None if top is None else _root(g, *top), None
+        return None if top is None else _root(g, *top, together), None
     if begins and not spent and rise:
         low = min(values[:rise])
         if low < values[0] - TOUCH * max(map(abs, values)):  # and it comes back in the same step
-            return _begun(g, points[values.index(low)], spent), None
+            return _begun(g, points[values.index(low)], spent, together), None
     fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
     if fall is not None:
         left, at = points[fall - 1], points[fall]
@@ -157,7 +157,7 @@ def crossing(
         return None, None if rises else at
     if fall is None and g(at) > 0.0:
         return None, None  # it falls behind the step
-    return _root(g, left, at), None
+    return _root(g, left, at, together), None
 
 
 def _touches(
@@ -183,11 +183,11 @@ def _touches(
     return bool(turn.fun >= -deep)
 
 
-def _begun(g: Callable[[float], float], h: float, spent: bool) -> float | None:
+def _begun(g: Callable[[float], float], h: float, spent: bool, together: float) -> float | None:
     """The zero after a rise too short for the points to see; without one, the very beginning."""
     for k in range(1, HALVINGS):
         if g(h / 2**k) > 0.0:
-            return _root(g, h / 2**k, h / 2 ** (k - 1))
+            return _root(g, h / 2**k, h / 2 ** (k - 1), together)
     return None if spent else 0.0
 
 
@@ -226,7 +226,7 @@ def _near(
     return (float(turn.x), right) if turn.fun < 0.0 else None
 
 
-def _root(values: Callable[[float], float], left: float, right: float) -> float:
+def _root(values: Callable[[float], float], left: float, right: float, together: float) -> float:
     """Just beyond the zero between a positive value and one that is not: g has fallen there."""
     from scipy.optimize import brentq
 
@@ -235,7 +235,7 @@ def _root(values: Callable[[float], float], left: float, right: float) -> float:
         return right
     if not g(left) > 0.0:  # or there
         return left
-    beyond = min(ROOT, FINE * (right - left))
+    beyond = ROOT * together
     root = float(brentq(g, left, right, xtol=beyond, rtol=4 * np.finfo(float).eps))
     while root < right and g(root) > 0.0:
         root, beyond = min(root + beyond, right), 2 * beyond

@@ -39,7 +39,7 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
     beside = [case for case in every if case not in named and _has(_held(case.file), words)]
     cases = [*named, *beside]
     if not cases:
-        raise click.UsageError(f"no shipped case has {' and '.join(words)} in it")
+        raise click.ClickException(f"no shipped case has {' and '.join(words)} in it")
     if wants_json:
         from ..show import document  # which needs all that a run's rows need
 

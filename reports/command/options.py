@@ -116,8 +116,8 @@ def as_json(command: Callable[..., None]) -> Callable[..., None]:
         try:
             command(*args, wants_json=wants_json, **kwargs)
         except (CaseError, click.ClickException, OSError) as error:
-            if not wants_json or isinstance(error, BrokenPipeError):
-                raise
+            if not wants_json or isinstance(error, BrokenPipeError | click.UsageError):
+                raise  # a wrong option is told in words, as where it is none of ours
             from ..show import document
 
             found = document.mistakes(_mistakes(error))

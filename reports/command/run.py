@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ...cases.mistake import Mistake
 from ..show.console import tell
 from .done import DONE, written
 from .looking import left_out, looked_at
@@ -131,10 +132,16 @@ def run(
         if keep is not None:
             kept.keep(report, keep, overwrite=overwrite)
             DONE.append(f"the trajectories are in {keep}")
-    except OSError:  # such as a full disk: what was computed is said all the same
+    except OSError as error:  # such as a full disk: what was computed is said all the same
         if not wants_json:
             terminal.show(report, detailed=bool(cases), written=None, cures=known)
-        raise
+            raise
+        what = error.strerror or str(error)
+        mistakes = [*mistakes, Mistake(str(error.filename or ""), 0, 0, "", what)]
+        document.write(
+            document.of_run(report, mistakes, cures=known, written=None, exit_code=BAD_INPUT)
+        )
+        raise click.exceptions.Exit(BAD_INPUT) from None
     code = BAD_INPUT if mistakes else FAILED if report.fails else 0
     if wants_json:
         document.write(document.of_run(report, mistakes, cures=known, written=out, exit_code=code))

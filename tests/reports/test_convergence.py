@@ -238,7 +238,7 @@ def test_what_falls_more_slowly_than_declared_has_no_limit_yet(
     assert found.limit is not None
     assert found.uncertainty is not None
     assert found.limit < 2 * found.uncertainty
-    monkeypatch.setattr(convergence, "_doubt", lambda *_: 0.0)
+    monkeypatch.setattr(convergence, "_left", lambda *_: 0.0)
     assert judge(rungs, p=4, allow=1e-5).verdict == ANOTHER
 
 
@@ -255,3 +255,16 @@ def test_a_model_is_told_behind_an_event_too() -> None:
         behind=T > 0.5,
     )
     assert found.verdict == ANOTHER
+
+
+def test_what_may_be_far_from_its_limit_is_not_the_textbooks_by_chance() -> None:
+    """Romberg's limit is 0 here to 9e-6, and the true one 3.3e-4."""
+    steps = [1e-4 * 2**k for k in range(6)]
+    rungs = {h: REFERENCE + T * (h**0.86 - 3.343e-4) for h in steps}
+    found = study(rungs, REFERENCE, exponents=(4, 5), allow=1e-4, floor=1e-13)
+    assert found.verdict not in (TEXTBOOK, WITHIN, ANOTHER)
+
+
+def test_without_exponents_no_limit_is_told() -> None:
+    found = study(ladder(p=1), REFERENCE, exponents=(), allow=1e-2, floor=1e-13)
+    assert (found.verdict, found.limit) == (FALLS, None)

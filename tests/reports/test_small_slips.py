@@ -115,8 +115,9 @@ def test_what_a_step_cannot_tell_is_paired_with_what_it_is(tmp_path: Path) -> No
     motion = Trajectory(record.times, record.states, {}, record=record)
     engine = Pymunk("tuned")
     trial = Trial(case, motion, engine, planned(engine, case.scene, first(motion))[0])
-    assert trial.partners("loose", 3, STEP).tolist() == [0, 1, 2]
-    assert trial.partners("loose", 1, step).tolist() == [2]
+    assert trial.partners("loose", happens + STEP).tolist() == [0, 1, 2]
+    assert trial.partners("loose", happens[[0, 2]] + step).tolist() == [0, 2]
+    assert trial.partners("loose", happens[[2]] - step).tolist() == [2]
 
 
 def judged(case: Case, engine: Engine) -> list[Comparison]:
@@ -203,3 +204,61 @@ def test_what_is_cut_is_where_the_body_was(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(pymunk, "cuts", lambda _: False)
     assert (errors()["hits.time"] or 0.0) > 1e-5
     assert (errors()["hits.p.vx.after"] or 0.0) > 1.0
+
+
+@pytest.mark.parametrize(("speed", "duration"), [(1.2, 1.0), (0.9, 1.0), (1.2, 0.7), (1.2, 2.3)])
+def test_the_exact_motion_at_steps_is_it(speed: float, duration: float, tmp_path: Path) -> None:
+    """Also where it stops on a sample, behind which are rows an ulp apart; and at its very end."""
+    case = typed(
+        tmp_path,
+        f"""\
+scene:
+  gravity: none
+  points: {{O: [0, 0]}}
+  bodies: {{b: {{particle: {{mass: 1}}}}}}
+  joints: {{r: {{slide: [ground.O, b.center], along: [1, 0], dry_friction: {{kinetic: 3}}}}}}
+  forces: {{p: {{push: b.center, step: {{amplitude: [8.0, 0], at: 0.65}}}}}}
+initial: {{b: {{x: 0, vx: {speed}}}}}
+events: {{go: {{r.slip: leaves zero}}, stop: {{r.slip: stays zero}}}}
+allow: {{b.x: 1.0e-3}}
+""",
+        tail=f"duration: {duration}\nsamples: {round(duration * 10) + 1}\n",
+    )
+    record = solve(case).trajectory.record
+    assert record is not None
+    t, u = reading_events._at_steps(case.scene, record, case.events["go"], 1e-4)
+    wanted = np.clip(speed - 3 * t, 0.0, None) + 5 * np.clip(t - 0.65, 0.0, None)
+    assert u == pytest.approx(wanted, abs=1e-9)
+    for name, happens in (("go", 0.65), ("stop", speed / 3)):
+        event, times = case.events[name], np.array([happens])
+        share = reading(case.scene, record, event, times, 1e-3)
+        assert share == LOW
+        assert surely(case.scene, record, event, times, 1e-3, share).tolist() == [0]
+
+
+def test_of_two_that_are_close_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exact steps show the second alone: an engine that has that is not one short."""
+    scene, record = coasting(0.0)
+    happened, found = np.array([0.100, 0.104]), np.array([0.104])
+    monkeypatch.setattr(reading_events, "_at_steps", lambda *given: (record.times, found))
+    monkeypatch.setattr(reading_events, "_read", lambda *given: found)
+    event = Event("box.vx", "leaves zero")
+    assert surely(scene, record, event, happened, 1e-3, LOW).tolist() == [1]
+
+
+def test_what_swings_on_has_not_come_to_rest() -> None:
+    """By 3 % of its first speed, without end: that is no trembling."""
+    scene, record = coasting(0.0)
+    states, t = record.states["box"].copy(), record.times
+    states[:, VX] += np.where(t > REST, -0.03 * np.sin(8 * np.pi * (t - REST)), 0.0)
+    swings = Trajectory(t, {"box": states}, {}, phase=record.phase)
+    event = Event("box.vx", "falls to zero")
+    assert len(engine_events(scene, swings, event, LOW)) > 1
+
+
+def test_what_lands_in_the_last_step_has_landed(tmp_path: Path) -> None:
+    puck = PUCK.replace("0.80017", "0.7996").replace("step: 1.0e-4", "step: 1.0e-3")
+    case = typed(tmp_path, puck, tail="duration: 0.4\nsamples: 6\n")
+    rows = {row.quantity: row for row in judged(case, Pymunk("tuned")) if row.realised == "driver"}
+    assert rows["hits.count"].error == 0.0
+    assert (rows["hits.time"].error or 0.0) < 1e-9

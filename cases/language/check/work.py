@@ -103,7 +103,8 @@ def _rates(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
     for name, force in scene.forces.items():
         swings, decays = force.pace(mobility)
         if isinstance(force, Drag) and decays:
-            decays *= _speed(file, scene, force, 1 / mobility(force.at)) ** (force.exponent - 1)
+            speed = _speed(file, scene, force, 1 / mobility(force.at))
+            decays *= _power(speed, force.exponent - 1)
         yield max(swings, decays / DAMPED), ("scene", "forces", name)
     for name, point in scene.points.items():
         if point.moves is not None:
@@ -116,18 +117,23 @@ def _rates(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
 def _speed(file: File, scene: Scene, drag: Drag, mass: float) -> float:
     """A speed [m/s] that a dragged point is not far above, where its exponent is more than 1.
 
-    What only falls is as fast as it starts, or as carries it. Elsewhere it is 1 m/s, as it is for
-    less than 1, where what is slow is slowed down most.
+    What only falls is as fast as it starts, or as carries it. Elsewhere, where others may strike or
+    drive it, it is 1 m/s; so it is for less than 1, where what is slow is slowed down most.
     """
-    if drag.exponent <= 1 or len(scene.forces) > 1 or scene.drives or scene.joints:
+    others = (scene.drives, scene.joints, scene.pairs, scene.constraints)
+    if drag.exponent <= 1 or len(scene.forces) > 1 or any(others):
         return 1.0
     start = file.initial.get(drag.at.body)
     begins = hypot(*(start.given.get(rate, 0.0) for rate in ("vx", "vy", "vz"))) if start else 0.0
-    weight, most = (
-        mass * hypot(*scene.gravity),
-        max(d for way in drag.ways for d in vars(way).values()),
-    )
-    return max(begins, (weight / most) ** (1 / drag.exponent))
+    most = max(d for way in drag.ways for d in vars(way).values())
+    return max(begins, (mass * hypot(*scene.gravity) / most) ** (1 / drag.exponent))
+
+
+def _power(speed: float, exponent: float) -> float:
+    try:
+        return speed**exponent
+    except OverflowError:
+        return inf
 
 
 def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:

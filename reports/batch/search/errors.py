@@ -86,8 +86,10 @@ def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
     if name not in samples:
         return None
     wanted, count = trial.wanted(name), len(samples[name])
-    if count < len(wanted) and (event := trial.quantity(name).part) in trial.events:
-        wanted = wanted[trial.surely(event, trial.step)]  # what such steps can tell is enough
+    event = trial.quantity(name).part
+    dated = event in trial.events and count < len(wanted)
+    if dated and not trial.miscounted(event, count, trial.step):  # what such steps tell is enough
+        wanted = wanted[trial.partners(event, samples[f"{event}.time"])]
     if count != len(wanted):  # another count: which belongs to which?
         return np.array([inf])
     return metric.sizes(trial.read(name, samples[name]) - wanted)

@@ -22,6 +22,7 @@ from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
 from .rests import LOW, SHARES, STEPS, rests
 
+CLOSE = 1e-6  # of the largest step of a march: rows as close are one
 WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
@@ -179,9 +180,12 @@ def engine_events(
     the quantity.
     """
     times, u = record.times, event.falling(observe(scene, record, event.quantity))
-    larger = [each for each in reversed(SHARES) if each > share > 0.0 and count is not None]
-    found = (_read(times, u, event, each) for each in (share, *larger))
-    return next((one for one in found if len(one) == count), _read(times, u, event, share))
+    found = _read(times, u, event, share)
+    larger = [each for each in reversed(SHARES) if each > share > 0.0]
+    if count is None or len(found) == count:
+        return found
+    others = (_read(times, u, event, each) for each in larger)
+    return next((other for other in others if len(other) == count), found)
 
 
 def _read(times: Array, u: Array, event: Event, share: float) -> Array:
@@ -196,15 +200,21 @@ def _read(times: Array, u: Array, event: Event, share: float) -> Array:
 def _to_rest(times: Array, u: Array, fallen: Array, share: float) -> Array:
     """When u (N,) falls to zero, also where it stays there: what it then is only trembles.
 
-    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign.
+    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign. What
+    swings by more than 1e-4 of the largest value does not only tremble.
     """
-    found: list[float] = fallen.tolist()
+    found, beside = fallen.tolist(), STEPS * float(times[1] - times[0])
+    small = SMALL * float(np.max(np.abs(u)))
     for stop, start in rests(times, u, share):
         if stop is None or not np.sum(u[times < stop][-STEPS:]) > 0.0:
             continue
-        early = stop - STEPS * float(times[1] - times[0])
-        until = float(times[-1]) if start is None else start
-        found = [t for t in found if not early <= t <= until] + [stop]
+        until, last = float(times[-1]) if start is None else start, stop + beside
+        kept = [t for t in found if not stop - beside <= t <= until]
+        for t in (t for t in found if last < t <= until):
+            hump = u[(times > last) & (times < t)]
+            kept += [t] if np.max(hump, initial=0.0) > small else []
+            last = t
+        found = [*kept, stop]
     return np.array(sorted(found), float)
 
 
@@ -212,7 +222,8 @@ def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, ste
     """The share of the largest value with which `rests` reads the reference's events right.
 
     With it steps so large [s] tell each of them within a step; 2 % where no share does. It is 0
-    where nothing rests: what only decays to zero does not fall to it.
+    where nothing rests, or none of them reads what also falls to zero: what only decays to zero
+    does not fall to it.
     """
     if event.crosses and not _comes_to_rest(scene, record, event):
         return 0.0
@@ -222,7 +233,7 @@ def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, ste
         found = _read(times, u, event, share)
         return len(found) == len(happened) and bool(np.all(np.abs(found - happened) <= step))
 
-    return next((share for share in SHARES if right(share)), LOW)
+    return next((share for share in SHARES if right(share)), 0.0 if event.crosses else LOW)
 
 
 def _comes_to_rest(scene: Scene, record: Trajectory, event: Event) -> bool:
@@ -241,16 +252,21 @@ def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tu
     u, _, pieces = _pieces(scene, record, event)
     begin, end = float(record.times[0]), float(record.times[-1])
     count = int((end - begin) / step + WHOLE)
-    times = begin + step * np.arange(count + 1, dtype=np.float64)
+    times = np.minimum(begin + step * np.arange(count + 1, dtype=np.float64), end)
     found = np.zeros_like(times)
     for rows in pieces:
         bends = [0, *bent(record.times[rows], scene.corners()), len(rows) - 1]
         for part in (rows[a : b + 1] for a, b in pairwise(sorted({*bends}))):
             at, kept = np.unique(record.times[part], return_index=True)
+            inside = slice(*np.searchsorted(times, [at[0], np.nextafter(at[-1], np.inf)]).tolist())
+            # An event on a sample leaves rows that are an ulp apart: no curve goes through both.
+            apart = np.append(True, np.diff(at) > CLOSE * np.max(np.diff(at), initial=0.0))
+            at, values = at[apart], u[part][kept][apart]
             if len(at) > 1:
-                inside = (times >= at[0]) & (times <= at[-1])
                 odd = min(AROUND, len(at)) // 2 * 2 - 1
-                found[inside] = make_interp_spline(at, u[part][kept], k=odd)(times[inside])
+                found[inside] = make_interp_spline(at, values, k=odd)(times[inside])
+            else:
+                found[inside] = values
     return times, found
 
 
@@ -263,6 +279,8 @@ def falls(times: Array, u: Array) -> Array:
     """
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
     turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
+    last = (2 * u[-2:-1] <= u[-3:-2]) & (u[-2:-1] > 0) & (u[-1:] > 0)  # behind it no step tells
+    turned = np.append(turned, last)
     through = (u[:-1] > 0) & (u[1:] <= 0)
     seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
     seen |= {int(i) + 1: _through(times, u, int(i) + 1, int(i)) for i in np.flatnonzero(turned)}
@@ -293,8 +311,9 @@ def surely(
         return np.arange(0)
     if not event.crosses:
         found = _read(*_at_steps(scene, record, event, step), event, share)
-        apart = np.abs(happened[:, None] - found[None, :])
-        return np.flatnonzero(np.min(apart, axis=1, initial=np.inf) <= STEPS * step)
+        partners = nearest(found[: len(happened)], happened)
+        close = np.abs(found[: len(happened)] - happened[partners]) <= STEPS * step
+        return partners[close]
     u = event.falling(observe(scene, record, event.quantity))
     largest = float(np.max(np.abs(u)))
     humps = [
@@ -303,6 +322,22 @@ def surely(
     ]
     long, high = SURE * STEPS * step, SURE * SMALL * largest
     return np.flatnonzero([bool(lasts >= long and height >= high) for lasts, height in humps])
+
+
+def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
+    """For each of some times (n,) its partner among the wanted (K ≥ n,), in order.
+
+    All of them together are as near as can be.
+    """
+    total, costs = np.zeros(len(wanted) + 1), list[Array]()
+    for t in times.tolist():
+        costs.append(total[:-1] + np.abs(wanted - t))
+        total = np.append(np.inf, np.minimum.accumulate(costs[-1]))
+    found, end = list[int](), len(wanted)
+    for cost in reversed(costs):
+        end = int(np.argmin(cost[:end]))
+        found.append(end)
+    return np.array(found[::-1], dtype=np.int64)
 
 
 def _through(times: Array, u: Array, i: int, line: int) -> float:

@@ -81,14 +81,17 @@ def study(
     size = _Size([metric.largest(rung - reference) for rung in rungs])
     if size.verdict == UNSETTLED:
         size = _Size(list(errors.values()))  # what is beside events may fall all the same
-    if len(steps) < len(exponents) + 1:
+    if len(steps) < max(FEWEST, len(exponents) + 1) or not exponents:
         return Convergence(size.verdict, errors, usable, *size.orders)
     value, uncertainty = _romberg(rungs, exponents)
     enlarged = floor * _amplified(exponents)
     uncertainty = max(uncertainty, enlarged, _noise(rungs))
     off = metric.largest(value - reference)
     settled = _settled(off, uncertainty, allow)
-    doubt = _doubt(rungs, exponents[0], ~keep[keep] if behind is None else behind[keep])
+    left = _left(rungs, exponents[0])
+    doubt = max(left, 0.0 if behind is None else _late(rungs, behind[keep]))
+    if settled == TEXTBOOK and left > OF_ALLOW * allow:
+        settled, uncertainty = None, max(uncertainty, left)
     if settled in (WITHIN, ANOTHER) and off <= ANOTHER_BEYOND * doubt:
         settled, uncertainty = None, max(uncertainty, doubt)
     limit = metric.round_to_floor(off, enlarged), metric.round_up_to_floor(uncertainty, enlarged)
@@ -127,20 +130,24 @@ def _settled(off: float, uncertainty: float, allow: float) -> str | None:
     return None
 
 
-def _doubt(rungs: Sequence[Array], declared: int, behind: NDArray[np.bool_]) -> float:
-    """How far from its limit the finest rung may be, where the declared exponents do not hold.
+def _left(rungs: Sequence[Array], declared: int) -> float:
+    """How far from its limit the finest rung may be, where it falls more slowly than declared.
 
-    Where the differences fall more slowly than declared, as those of a solver that is stopped too
-    soon or of an engine that is late, as much is left as they would still sum up to. Behind an
-    event their order shows nothing: an engine that sees it at the end of a step is late by what is
-    left of that step, and on h, 2h, 4h … these parts may differ by whole steps, and still all be
-    short of one by the same.
+    As those of a solver that is stopped too soon, or of an engine that is late, do: as much is left
+    as the differences would still sum up to.
     """
-    fine, coarse = (metric.sizes(b - a) for a, b in itertools.pairwise(rungs[:3]))
-    last, before = float(np.max(fine)), float(np.max(coarse))
+    last, before = (metric.largest(b - a) for a, b in itertools.pairwise(rungs[:3]))
     slowly = last < before < 2.0 ** (declared - CLEAR) * last
-    left = last**2 / (before - last) if slowly else 0.0
-    return max(left, float(np.max(fine[behind], initial=0.0)))
+    return last**2 / (before - last) if slowly else 0.0
+
+
+def _late(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
+    """How far from its limit the finest rung may be behind an event: there no order shows it.
+
+    An engine that sees it at the end of a step is late by what is left of that step, and on h, 2h,
+    4h … these parts may differ by whole steps, and still all be short of one by the same.
+    """
+    return float(np.max(metric.sizes(rungs[1] - rungs[0])[behind], initial=0.0))
 
 
 @dataclass(frozen=True)

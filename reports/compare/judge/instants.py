@@ -45,7 +45,7 @@ def judge(
         elif field == "count":
             rows.append(_count(trial, event, samples[f"{event}.time"]))
         else:
-            rows.append(_each(trial, name, samples[name], runs))
+            rows.append(_each(trial, name, samples, runs))
             studies += _climbed(trial, name, runs)
     return rows, studies
 
@@ -61,10 +61,10 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
 
-def _each(trial: Trial, name: str, found: Array, runs: Runs) -> Comparison:
+def _each(trial: Trial, name: str, samples: Samples, runs: Runs) -> Comparison:
     """Times or states in their order, as many as both have; the count is another row's matter."""
-    event = trial.quantity(name).part
-    times, partners = trial.events[event], trial.partners(event, len(found), trial.step)
+    event, found = trial.quantity(name).part, samples[name]
+    times, partners = trial.events[event], trial.partners(event, samples[f"{event}.time"])
     both = len(partners)
     if not both:
         told = not len(times) or len(trial.surely(event, trial.step))
@@ -99,14 +99,15 @@ def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
     for ladder, climbed in runs.ladders.items():
         first = _first(trial, name, climbed)
 
-        def off(h: float, found: Array, first: int = first) -> float:
+        def off(h: float, samples: Samples, first: int = first) -> float:
+            found = samples[name]
             least = max(first, len(trial.surely(event, h))) if len(found) < len(wanted) else first
             if not least <= len(found) <= len(wanted):
                 return np.inf
-            partners = trial.partners(event, len(found), h)[:first]
+            partners = trial.partners(event, samples[f"{event}.time"])[:first]
             return metric.error(found[:first], wanted[partners]).largest
 
-        errors = {h: off(h, samples[name]) for h, samples in sorted(climbed.items())}
+        errors = {h: off(h, samples) for h, samples in sorted(climbed.items())}
         if errors and len(wanted):
             yield ladder, name, instants(errors, trial.allowed(name) or np.inf)
 
@@ -144,7 +145,7 @@ def _paired(
     trial: Trial, event: str, found: Array, times: Array
 ) -> Iterator[tuple[float, float | None]]:
     """Each of the engine's times [s] with that of the reference, where it has a partner."""
-    wanted = times[trial.partners(event, len(found), trial.step)].tolist()
+    wanted = times[trial.partners(event, found)].tolist()
     return zip_longest(found.tolist(), wanted)
 
 

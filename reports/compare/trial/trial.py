@@ -15,7 +15,7 @@ from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
 from ...system.table_text import why
 from ..events.states import reference_states
-from ..events.times import reading, reference_events, surely
+from ..events.times import nearest, reading, reference_events, surely
 from .answers import plans
 from .ladder import judged_step
 from .start import first
@@ -151,8 +151,16 @@ class Trial:
         record, named = self.reference.record, self.case.events[event]
         if record is None:
             return np.arange(0)
-        share = self.shares(step)[event]
-        return surely(self.case.scene, record, named, self.events[event], step, share)
+        if (event, step) not in self._sure:
+            scene, share = self.case.scene, self.shares(step)[event]
+            sure = surely(scene, record, named, self.events[event], step, share)
+            self._sure[event, step] = sure
+        return self._sure[event, step]
+
+    @cached_property
+    def _sure(self) -> dict[tuple[str, float], NDArray[np.int64]]:
+        """Those asked for so far: each row asks for each rung."""
+        return {}
 
     def miscounted(self, event: str, count: int, step: float) -> float:
         """By how many an engine's events are fewer than such steps tell, or more than there are."""
@@ -160,12 +168,13 @@ class Trial:
         least = most if count >= most else len(self.surely(event, step))
         return float(max(least - count, count - most, 0))
 
-    def partners(self, event: str, count: int, step: float) -> NDArray[np.int64]:
-        """Which of the reference's events so many of an engine's are compared with, in order."""
-        most = len(self.events[event])
-        if count < most and len(sure := self.surely(event, step)) == count:
-            return sure
-        return np.arange(min(count, most))
+    def partners(self, event: str, times: Array) -> NDArray[np.int64]:
+        """Which of the reference's events an engine's, at these times [s], are compared with.
+
+        Where it has fewer they are the nearest, in order; of more than there are the first.
+        """
+        wanted = self.events[event]
+        return nearest(times, wanted) if len(times) < len(wanted) else np.arange(len(wanted))
 
     def shares(self, step: float) -> dict[str, float]:
         """How the rests of each event are read from steps so large."""
@@ -202,8 +211,9 @@ class Trial:
 
     @cached_property
     def behind(self) -> NDArray[np.bool_]:
-        """Which samples (N,) come after the first switch of the reference."""
-        first = float(np.min(self.reference.switches, initial=np.inf))
+        """Which samples (N,) come after the first switch of the reference behind its start."""
+        switches = self.reference.switches
+        first = float(np.min(switches[switches > self.case.times[0]], initial=np.inf))
         return self.case.times > first
 
     @cached_property

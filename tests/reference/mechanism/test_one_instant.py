@@ -132,7 +132,7 @@ allow: {dot.x: 1.0e-2}
         solve(scenes.typed(tmp_path, text))
     (mistake,) = caught.value.mistakes
     assert mistake.where == "scene.contacts.touch"
-    assert "dot.center has left the top of lower at t = 0.4" in mistake.what
+    assert "dot.center has left the top of lower by t = 0.4" in mistake.what
 
 
 FLAT = """\
