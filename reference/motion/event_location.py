@@ -226,7 +226,9 @@ def _near(
     return (float(turn.x), right) if turn.fun < 0.0 else None
 
 
-def _root(values: Callable[[float], float], left: float, right: float, together: float) -> float:
+def _root(
+    values: Callable[[float], float], left: float, right: float, together: float = TOGETHER
+) -> float:
     """Just beyond the zero between a positive value and one that is not: g has fallen there."""
     from scipy.optimize import brentq
 
