@@ -27,6 +27,12 @@ MOVING = "moving"  # the mode of a system that has only one
 # by Δ too early, with flights of d and less left out.  It rests then with the momentum that these
 # would give it, and is off by g d Δ at most.
 EARLY, LAST = 5e-7, 5e-8  # of the duration: Δ, or d where that is larger; shorter ones drown in ε
+TOGETHER = 1e-12  # s, of a motion of a second or more: how well events are located, see `instant`
+
+
+def instant(duration: float) -> float:
+    """How close [s] two events of a motion are one: of a short one as small a part of its time."""
+    return TOGETHER * min(1.0, duration)
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
 from ..motion.follow import TOLERANCE, Change, Followed, either, follow
 from ..start.assembly import size_of
-from ..system import Array, Mode, System
+from ..system import Array, Mode, System, instant
 from .agreement import Check, difference, times_apart, worst
 from .errors import errors
 from .event_time_error import untimed
@@ -37,8 +37,8 @@ ROUNDING = 2.2e-16  # a step: a motion of many steps cannot be known better
 SWITCHED = 1e-11  # of the motion's size: an event is known to 1e-12 s, and what follows with it
 GENERATED = 1e-9  # hand-written against generated motion
 NOISE = 1e-9  # of the size: places that are nearer to the origin are no motion, but its rounding
-OWN_EVENTS = 1e-12  # s, against known functions; of less than a second a part
-OTHER_EVENTS = 1e-10  # s, against another motion; of less than a second a part
+OWN_EVENTS = 1.0  # instants, against known functions
+OTHER_EVENTS = 100.0  # instants, against another motion
 LOOSER = 100  # times what two integrators differ by: two samples of one error may differ so much
 COARSER = 1e-13  # tolerance of the second answer where there is only one stiff integrator
 UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps is 0.01 off at most
@@ -167,13 +167,13 @@ def _events(
 
     late: what a motion as sensitive as this one may have events apart by [s].
     """
-    short = min(1.0, until)
+    close = instant(until)
     for name, other in found.items():
         if followed.changes or other.changes:
-            yield Check(name, _apart(followed, other), max(OTHER_EVENTS * short, late))
+            yield Check(name, _apart(followed, other), max(OTHER_EVENTS * close, late))
     events = system.closed_events(until)
     if events is not None and (events or followed.events):
-        yield Check("closed events", _known(followed, events), max(OWN_EVENTS * short, late))
+        yield Check("closed events", _known(followed, events), max(OWN_EVENTS * close, late))
 
 
 def _known(followed: Followed, events: list[tuple[str, float]]) -> float:

@@ -18,8 +18,8 @@ from ...cases.trajectory import Array, Trajectory
 from ..integrators.march import EPS
 from ..mechanism.modes.mechanism import Mechanism
 from ..motion.bodies import Answer
-from ..motion.event_location import instant
 from ..start.assembly import size_of
+from ..system import instant
 from .agreement import Check, worst
 from .reading import Size, size
 

@@ -9,9 +9,8 @@ from functools import cache
 
 import numpy as np
 
-from ..system import Array
+from ..system import TOGETHER, Array
 
-TOGETHER = 1e-12  # s, of a motion of a second or more: how well an event is located, see `instant`
 ROOT = 1e-3  # of that: what the root-finder is asked for, to keep the promise
 INSIDE = (0.25, 0.5, 0.75)  # of a step: a guard turns no faster than the motion, at most once
 SOON = tuple(2.0**-k for k in range(16, 2, -1))  # of a step: what begins at zero may fall at once
@@ -31,11 +30,6 @@ Within = Callable[[float], Array]
 """h → y after a step of that length."""
 Rounding = Callable[[Fall, Array], Iterable[float]]
 """A guard and y at a step's end → what rounding makes of the guard at each point of the step."""
-
-
-def instant(duration: float) -> float:
-    """How close [s] two events of a motion are one: of a short one as small a part of its time."""
-    return TOGETHER * min(1.0, duration)
 
 
 def clear(guards: Sequence[Fall], f: Slope, t: float, h: float, y0: Array, y1: Array) -> bool:

@@ -16,8 +16,8 @@ from ..integrators.explicit import DormandPrince
 from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
 from ..integrators.radau import radau_table
-from ..system import Array, Guard, Mode, System
-from .event_location import INSIDE, SOON, TOUCH, Fall, Within, clear, first, instant
+from ..system import Array, Guard, Mode, System, instant
+from .event_location import INSIDE, SOON, TOUCH, Fall, Within, clear, first
 from .mode_onset import Early
 from .stuck import Stuck, Watched, slope
 from .zeno import (

@@ -4,8 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..system import EARLY, LAST, Array
-from .event_location import instant
+from ..system import EARLY, LAST, Array, instant
 
 MOST = 10_000  # events
 SEEN = 6  # firings of one name from which an accumulation is judged: five distances

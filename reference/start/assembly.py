@@ -9,8 +9,7 @@ from ...cases.case import Case
 from ...cases.mistake import CaseError
 from ...cases.scene.frame import SPACE
 from ..mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
-from ..mechanism.modes.modes import LOCATED
-from ..system import Array, Pose
+from ..system import Array, Pose, instant
 from . import messages
 from .planar_closure import PlanarClosure
 from .positions import positions
@@ -38,8 +37,8 @@ def _at(case: Case, closure: PlanarClosure | SpatialClosure, q: Array, v: Array)
     if case.scene.frame is SPACE:
         return SpatialMechanism(case.scene, (q, v))
     inner = [force.begins for force in case.scene.inner().values()]
-    located = LOCATED * min(1.0, case.duration)
-    return PlanarMechanism(case.scene, (np.append(q, inner), v), closure.size, located)
+    start = np.append(q, inner), v
+    return PlanarMechanism(case.scene, start, closure.size, instant(case.duration))
 
 
 def _as_good(

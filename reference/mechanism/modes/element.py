@@ -84,9 +84,8 @@ class Element:
     def amiss(self, depth: float, speed: float) -> str:
         """Words for a start so deep [m] in the plane, or else with this speed [m/s] into it."""
         if depth:
-            side = self.two and not self.plane.startswith(
-                "rim"
-            )  # whose plane goes on behind its end
+            # The plane of a side goes on behind its end; a rim has none.
+            side = self.two and not self.plane.startswith("rim")
             other = ", or beyond its end" if side else ""
             return f"{self.name} starts {depth * 1e3:.3g} mm in the {self.plane}{other}"
         return f"{self.name} starts into the {self.plane}, with {speed:.3g} m/s"

@@ -12,7 +12,7 @@ from ....cases.scene import Scene
 from ....cases.scene.forces.drag import Drag
 from ....cases.scene.forces.force import of
 from ...coverage import equation
-from ...system import MOVING, Array, Guard, System
+from ...system import MOVING, TOGETHER, Array, Guard, System
 from ..constraints.constraint import Constraint, tracked
 from ..constraints.leeway import Leeway
 from ..forces.action import blurred
@@ -30,7 +30,7 @@ from .mode_selection import (
     staying,
     yielding,
 )
-from .modes import LOCATED, Modes, rate
+from .modes import Modes, rate
 from .shared_friction import alike_contacts
 from .spatial_mode import SpatialMultibody
 from .unilateral import HAPPENS, OTHER, OneSided
@@ -95,7 +95,7 @@ class PlanarMechanism(Mechanism):
         scene: Scene,
         start: tuple[Array, Array],
         size: float,
-        located: float = LOCATED,
+        located: float = TOGETHER,
     ) -> None:
         self.size = size
         self.modes = self.built = Modes(scene, start, located)

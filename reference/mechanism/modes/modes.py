@@ -8,7 +8,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ...coverage import equation
-from ...system import MOVING, Array
+from ...system import MOVING, TOGETHER, Array
 from ..constraints.constraint import Constraint, row
 from ..constraints.leeway import Leeway
 from ..forces.action import NoDirection
@@ -24,13 +24,12 @@ ROUNDING = 1e-10  # of the accelerations that the forces give alone
 KEPT = (
     200  # modes: of more those that are not entered are built again when they are met, 50 kB each
 )
-LOCATED = 1e-12  # s: how well events are located in a motion of a second or more
 
 
 class Modes(Mapping[str, Multibody]):
     """The modes by name, built when they are first met."""
 
-    def __init__(self, scene: Scene, start: tuple[Array, Array], located: float = LOCATED) -> None:
+    def __init__(self, scene: Scene, start: tuple[Array, Array], located: float = TOGETHER) -> None:
         self.scene, self.start, self._located = scene, start, located
         self.base = Multibody(scene, start)  # what holds in all of them
         where = self.base.where

@@ -99,11 +99,10 @@ def words(choice: Choice) -> str:
 
 
 def _nothing(bar: Bar) -> str:
-    """Why no run has an error that could be told."""
-    ran = [candidate for candidate, errors in bar.known.items() if errors]
-    if not ran:
+    """Why no run has an error that could be told: in each of them one is without end."""
+    if not any(bar.known.values()):
         return "every run diverges"
-    return f"no run has {bar.worst(ran[0])[1]} as often as the textbook, or at all"
+    return "no run tells every quantity, and has each event as often as the textbook"
 
 
 def _remains(one: Advised) -> dict[str, str | float]:

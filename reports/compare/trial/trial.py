@@ -159,7 +159,7 @@ class Trial:
 
     @cached_property
     def _sure(self) -> dict[tuple[str, float], NDArray[np.int64]]:
-        """Those asked for so far: each row asks for each rung."""
+        """Remembers which are sure: each row asks for each rung."""
         return {}
 
     def miscounted(self, event: str, count: int, step: float) -> float:
@@ -188,11 +188,11 @@ class Trial:
 
     @cached_property
     def _shares(self) -> dict[float, dict[str, float]]:
-        """Those asked for so far: two ladders ask for the same step."""
+        """Remembers the shares by step: two ladders ask for the same one."""
         return {}
 
     def read_by(self, step: float) -> dict[str, tuple[float, int]]:
-        """Of each event how its rests are read from such steps, and how often it happens."""
+        """How the rests of each event are read from such steps, and how often it happens."""
         return {name: (share, len(self.events[name])) for name, share in self.shares(step).items()}
 
     @cached_property

@@ -9,8 +9,9 @@ from given.otherwise import otherwise
 from given.watched import Oscillator, Still, Watched, events
 
 from textmech.reference.motion import event_location as module
-from textmech.reference.motion.event_location import TOGETHER, crossing
+from textmech.reference.motion.event_location import crossing
 from textmech.reference.motion.follow import follow
+from textmech.reference.system import TOGETHER
 
 
 def test_event_is_located():

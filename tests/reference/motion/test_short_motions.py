@@ -8,6 +8,7 @@ from given.scenes import typed
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
+from textmech.reference import system
 from textmech.reference.formalisms import lagrange
 from textmech.reference.motion import event_location, follow
 from textmech.reference.solve import Solution, solve
@@ -59,7 +60,7 @@ def test_what_would_stop_after_the_end_has_not_stopped(
     """v = 100 − 2e14 t m/s, which is 20 m/s after 0.4 ps."""
     case = short(tmp_path, STOPS, 4e-13)
     assert solve(case).trajectory.states["b"][-1, 3] == pytest.approx(20.0, rel=1e-12)
-    monkeypatch.setattr(follow, "instant", lambda _: event_location.TOGETHER)
+    monkeypatch.setattr(follow, "instant", lambda _: system.TOGETHER)
     assert solve(case).trajectory.states["b"][-1, 3] == 0.0
 
 
