@@ -6,6 +6,7 @@ run. Both are told by the environment, so that processes of our own and pytest k
 
 import os
 from contextlib import suppress
+from math import inf
 
 VARIABLE = "TEXTMECH_TIME_LIMIT"
 USUAL = 120.0  # s of a clock, for what waits spends nothing else: a task of ours takes a few
@@ -50,15 +51,18 @@ def hold(jobs: int) -> None:
 
     It is beside what it has already, which may be all that a notebook holds. What it asks for
     beyond is refused, as a MemoryError in Python. Room that is only reserved, as for a graphics
-    card, does not count.
+    card, does not count. The environment has the share then, by which it is told: no row says how
+    much the process had before.
     """
     with suppress(ImportError, AttributeError, OSError, ValueError):  # no POSIX, or a lower limit
         import resource
 
-        most = _held() + int(GIB * _gib(jobs))
+        share = _gib(jobs)
+        most = _held() + int(GIB * share)
         hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
         if hard == resource.RLIM_INFINITY or most < hard:
             resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
+            os.environ[MEMORY] = repr(share)
 
 
 def _held() -> int:
@@ -77,14 +81,20 @@ def memory_limit_text() -> str:
         import resource
 
         most = resource.getrlimit(resource.RLIMIT_DATA)[0]
-        return "" if most == resource.RLIM_INFINITY else f"{most / GIB:.3g} GiB"
+        if most != resource.RLIM_INFINITY:
+            return f"{min(most / GIB, _said(inf)):.3g} GiB"
     return ""
 
 
 def _gib(jobs: int) -> float:
     """GiB of each of so many processes."""
+    all_of_it = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / GIB
+    return _said(max(LEAST, SHARE * all_of_it / jobs))
+
+
+def _said(usual: float) -> float:
+    """GiB that the environment gives each process."""
     with suppress(KeyError, ValueError):
         if (said := float(os.environ[MEMORY])) > 0.0:
             return said
-    all_of_it = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / GIB
-    return max(LEAST, SHARE * all_of_it / jobs)
+    return usual

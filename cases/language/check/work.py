@@ -4,14 +4,14 @@ A person may allow any amount of it; what nobody expected ends with a message in
 The steps of engines are counted where engines are known (reports/compare/trial/work.py).
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from math import floor, hypot, inf, isnan, log10, sqrt
 from typing import Any
 
 from ...fields.signal import fastest
 from ...mistake import Path
 from ...scene import Anchor, Body, Scene
-from ...scene.forces.drag import Drag
+from ...scene.forces.element import Force
 from ...scene.islands import apart
 from ..grammar.file import File
 from ..parse import Finding
@@ -102,9 +102,8 @@ def _rates(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
 
     for name, force in scene.forces.items():
         swings, decays = force.pace(mobility)
-        if isinstance(force, Drag) and decays:
-            speed = _speed(file, scene, force, 1 / mobility(force.at))
-            decays *= _power(speed, force.exponent - 1)
+        if decays:
+            decays *= _quickened(file, scene, force, mobility)
         yield max(swings, decays / DAMPED), ("scene", "forces", name)
     for name, point in scene.points.items():
         if point.moves is not None:
@@ -114,26 +113,20 @@ def _rates(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
         yield _pendulum(scene.bodies[at.body], at.point, g), ("scene", "bodies", at.body)
 
 
-def _speed(file: File, scene: Scene, drag: Drag, mass: float) -> float:
-    """A speed [m/s] that a dragged point is not far above, where its exponent is more than 1.
+def _quickened(
+    file: File, scene: Scene, force: Force, mobility: Callable[[Anchor], float]
+) -> float:
+    """How many times as much it slows down as at 1 m/s, of what only falls.
 
-    What only falls is as fast as it starts, or as carries it. Elsewhere, where others may strike or
-    drive it, it is 1 m/s; so it is for less than 1, where what is slow is slowed down most.
+    Elsewhere, where others may strike or drive it, it is told as at 1 m/s.
     """
     others = (scene.drives, scene.joints, scene.pairs, scene.constraints)
-    if drag.exponent <= 1 or len(scene.forces) > 1 or any(others):
+    if len(scene.forces) > 1 or any(others):
         return 1.0
-    start = file.initial.get(drag.at.body)
+    at = max(force.refers(), key=mobility)
+    start = file.initial.get(at.body)
     begins = hypot(*(start.given.get(rate, 0.0) for rate in ("vx", "vy", "vz"))) if start else 0.0
-    most = max(d for way in drag.ways for d in vars(way).values())
-    return max(begins, (mass * hypot(*scene.gravity) / most) ** (1 / drag.exponent))
-
-
-def _power(speed: float, exponent: float) -> float:
-    try:
-        return speed**exponent
-    except OverflowError:
-        return inf
+    return force.quickens(begins, hypot(*scene.gravity) / mobility(at))
 
 
 def _spins(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:

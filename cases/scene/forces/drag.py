@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import inf
 from typing import Annotated
 
 import numpy as np
@@ -116,6 +117,19 @@ class Drag(Force):
         """The largest d/m at 1 m/s."""
         most = max(d for way in self.ways for d in (way.forward, way.backward))
         return 0.0, most * sum(mobility(at) for at in self.refers())
+
+    def quickens(self, begins: float, load: float) -> float:
+        """With α > 1 v^(α−1), of the start or as it carries the load.
+
+        With less what is slow is slowed down most, and 1 m/s is as good as any.
+        """
+        most = max(d for way in self.ways for d in (way.forward, way.backward))
+        if self.exponent <= 1 or not most:
+            return 1.0
+        try:
+            return max(begins, (load / most) ** (1 / self.exponent)) ** (self.exponent - 1)
+        except OverflowError:
+            return inf
 
 
 @dataclass(frozen=True)

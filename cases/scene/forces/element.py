@@ -91,6 +91,13 @@ class Force:
         """
         return 0.0, 0.0
 
+    def quickens(self, begins: float, load: float) -> float:
+        """How many times as much it slows down as at 1 m/s what nothing but a load pulls [N].
+
+        begins: the speed [m/s] at which that starts.
+        """
+        return 1.0
+
 
 @dataclass(frozen=True)
 class Limit(Force):
