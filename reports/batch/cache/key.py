@@ -49,6 +49,7 @@ class Keys:
     libraries: str = ""  # what is in those that compute
     _described: dict[int, tuple[object, str]] = field(default_factory=dict, compare=False)
     _parts: dict[tuple[type, str], Parts] = field(default_factory=dict, compare=False)
+    _read: dict[tuple[str, ...], str] = field(default_factory=dict, compare=False)
 
     @staticmethod
     def now(memo: Store | None) -> "Keys":
@@ -107,7 +108,12 @@ class Keys:
             return uuid4().hex
 
     def _code(self, places: tuple[str, ...]) -> str:
-        return _code(places, self.files)
+        """One word for the code of these places: read once in a run."""
+        if places not in self._read:
+            paths = [path for place in places for path in _modules(ROOT / place)]
+            told = (f"{path.name} {sha256(path.read_bytes()).hexdigest()}" for path in paths)
+            self._read[places] = _word(*told)
+        return self._read[places]
 
     def outcome(self, ways: str, realised: str) -> str:
         """The key of what the engine gave in one of the ways under the key `ways`."""
@@ -182,13 +188,6 @@ def _modules(place: Path) -> Iterable[Path]:
     if place.is_dir():
         return sorted(place.rglob("*.py"))
     return [place] if place.is_file() else sorted(place.parent.glob(place.name))
-
-
-@cache
-def _code(places: tuple[str, ...], seen: tuple[tuple[Path, Stat], ...]) -> str:
-    """One word for the code of these places, as it was seen: read once in a run."""
-    paths = [path for place in places for path in _modules(ROOT / place)]
-    return _word(*(f"{path.name} {sha256(path.read_bytes()).hexdigest()}" for path in paths))
 
 
 def _is(path: Path, stat: Stat) -> bool:
