@@ -69,14 +69,14 @@ class Comparisons:
 def load(word: Word | Sequence[Word] = ()) -> list[Case]:
     """The cases of a name, a variant (`rolling_wheel.pushed`) or a YAML file; all shipped for none.
 
-    Raises CaseError with all mistakes of all files.
+    Raises CaseError with all mistakes of all files, and where two cases have one name.
     """
-    from .batch.selection import choose_cases
+    from .batch.selection import choose_cases, told_apart
 
     words = _words(word)
     given = [case for case in words if isinstance(case, Case)]
     named = [str(name) for name in words if not isinstance(name, Case)]
-    return [*given, *(choose_cases(named) if named or not words else [])]
+    return told_apart([*given, *(choose_cases(named) if named or not words else [])])
 
 
 def solve(word: Word) -> Reference:

@@ -4,6 +4,7 @@ Inert unless a case file is named on the command line, or `textmech_cases` in th
 lists some. Everything heavy is imported only then.
 """
 
+import glob
 import os
 import shutil
 import sys
@@ -32,6 +33,7 @@ _REPORT = pytest.StashKey["Report"]()
 _ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
 _EARLIER = pytest.StashKey["Earlier"]()
 _FOLDER = pytest.StashKey[Path]()
+_KNOWN = pytest.StashKey[set[str]]()
 _ERRORS = os.dup(2) if sys.stderr is not None else -1  # before pytest takes it
 TOLD = ("case", "engine", "version", "setting", "realised", "quantity", "unit", "step", "error",
         "allowed", "verdict", "because")  # fmt: skip
@@ -73,22 +75,32 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 def _configured(file: Path, config: pytest.Config) -> bool:
-    patterns = config.getini("textmech_cases")
-    return any(fnmatch(str(file), str(config.rootpath / pattern)) for pattern in patterns)
+    root = glob.escape(str(config.rootpath))  # it is a folder, whatever letters it is called by
+    patterns = (os.path.join(root, pattern) for pattern in config.getini("textmech_cases"))
+    return any(fnmatch(str(file), os.path.normpath(pattern)) for pattern in patterns)
+
+
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """Remember each case that is there, whether its items are run or deselected."""
+    known = item.config.stash.setdefault(_KNOWN, set[str]())
+    if isinstance(item, CaseItem):
+        known |= {item.case.name, item.path.stem}
+    elif isinstance(item, MistakeItem):
+        known.add(f"{item.path.stem} with mistakes")
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
     """A case that was asked for and is in no file, or in two, must not look like a pass."""
     wanted = session.config.getoption("textmech_case") or []
     items = [item for item in session.items if isinstance(item, CaseItem)]
-    known = {name for item in items for name in (item.case.name, item.path.stem)}
+    known = session.config.stash.get(_KNOWN, set[str]())
     files: dict[str, Path] = {}
     for item in items:
         other = files.setdefault(item.case.name, item.path)
         if other != item.path:
             raise pytest.UsageError(f"{other} and {item.path} have one name: rename one of them")
     for name in wanted:
-        if name not in known:
+        if known.isdisjoint({name, f"{name.partition('.')[0]} with mistakes"}):
             raise pytest.UsageError(f"no such case in the collected files: {name!r}")
 
 

@@ -83,6 +83,21 @@ def sound_cases(
     return sound(list(cases.values()), mistakes), mistakes
 
 
+def told_apart(cases: Sequence[Case]) -> list[Case]:
+    """The cases, each once, in their order; references and rows are found by the name of a case.
+
+    Raises CaseError where two that are not the same have one name.
+    """
+    known: dict[str, Case] = {}
+    twice = [case for case in cases if known.setdefault(case.name, case) is not case]
+    if twice:
+        what = "another case beside it has the name {!r}: run them apart, or rename one"
+        raise CaseError(
+            [Mistake(case.source.file, 0, 0, "", what.format(case.name)) for case in twice]
+        )
+    return list(known.values())
+
+
 def sound(cases: Sequence[Case], mistakes: Sequence[Mistake]) -> list[Case]:
     """The cases of the files without mistakes."""
     mistaken = {mistake.file for mistake in mistakes}

@@ -39,7 +39,7 @@ from .search.cause_rows import NONE, NOTHING
 from .search.causes import Known
 from .search.causes import causes as found_causes
 from .search.why import Key, key_of
-from .selection import sound
+from .selection import sound, told_apart
 from .task_results import Progress, Results
 from .tasks import Pair
 from .trials import Tried, tried
@@ -93,8 +93,9 @@ def measure(
     any of `concurrent.futures`, a cluster's for instance, in place of the processes.
 
     A mistake that only solving finds costs its own file: `mistakes` of the report tells them.
-    Raises CaseError with the mistakes if no file is left.
+    Raises CaseError with the mistakes if no file is left, and where two cases have one name.
     """
+    cases = told_apart(cases)
     countable()
     keys, report = Keys.now(store), Report(cases=list(cases))
     beside = [(case, e) for case in cases for e in producers(case, engines, book=book)]

@@ -11,8 +11,9 @@ import pytest
 from given.command import textmech
 
 from textmech.cases.mistake import CaseError
-from textmech.reports import advise, run
+from textmech.reports import advise, load, run
 from textmech.reports.batch.selection import sound_cases
+from textmech.reports.batch.suite import measure
 from textmech.reports.system import limit, pool
 from textmech.reports.versions.release import alike
 
@@ -142,3 +143,17 @@ def test_memory_is_counted_from_what_a_process_has(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(limit, "_held", lambda: 0)
     with pool.local(1) as executor:
         assert executor.submit(bytearray, 10**8).exception(timeout=60) is not None
+
+
+@pytest.mark.mutant("one case is judged by the reference of another that is called as it is")
+def test_two_cases_of_one_name_are_not_run_together(file: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other" / file.name
+    other.parent.mkdir()
+    other.write_text(file.read_text("utf-8"), encoding="utf-8")
+    (one,), (two,) = load(file), load(other)
+    for ask in (load, run, advise):
+        with pytest.raises(CaseError, match="another case beside it has the name"):
+            ask([one, two])
+    with pytest.raises(CaseError, match="another case beside it has the name"):
+        measure([one, two], [], progress=lambda *_: None)
+    assert load([one, one]) == [one]

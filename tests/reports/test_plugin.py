@@ -1,10 +1,14 @@
 """The pytest plug-in, as it behaves in somebody else's project."""
 
+from pathlib import Path
+from typing import cast
 from xml.etree import ElementTree as ET
 
 import pytest
 from given.inner import inner
 from given.swing import SWING, swing
+
+from textmech.reports.pytest_plugin import _configured
 
 pytest_plugins = ["pytester"]
 
@@ -116,6 +120,37 @@ def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pyte
     done = inner(project, "swing.yaml", "--textmech-case", "swung")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines(["*no such case*swung*"])
+
+
+@pytest.mark.slow
+def test_a_case_that_is_deselected_is_there(project: pytest.Pytester) -> None:
+    done = inner(project, "swing.yaml", "--textmech-case", "swing", "-k", "nothing")
+    assert done.ret == pytest.ExitCode.NO_TESTS_COLLECTED
+
+
+@pytest.mark.slow
+def test_a_case_with_mistakes_says_them_also_where_it_is_asked_for(
+    project: pytest.Pytester,
+) -> None:
+    project.makefile(".yaml", bad="title: [\n")
+    done = inner(project, "bad.yaml", "--textmech-case", "bad")
+    done.assert_outcomes(failed=1)
+    done.stdout.fnmatch_lines(["*bad.yaml:*"])
+
+
+@pytest.mark.parametrize(
+    ("pattern", "found"),
+    [("cases/*.yaml", True), ("./cases/../cases/*.yaml", True), ("other/*.yaml", False)],
+)
+def test_cases_are_found_in_a_folder_of_any_name(pattern: str, found: bool, tmp_path: Path) -> None:
+    class Config:
+        rootpath = tmp_path / "project[1]"
+
+        def getini(self, name: str) -> list[str]:
+            return [pattern]
+
+    config = cast("pytest.Config", Config())
+    assert _configured(Config.rootpath / "cases" / "swing.yaml", config) is found
 
 
 @pytest.mark.slow

@@ -39,6 +39,8 @@ class HeavyTop(Mode):
     def __post_init__(self) -> None:
         if not 0.0 < self.theta0 < math.pi:
             raise ValueError("upright or hanging, ψ and φ are not told apart: 0 < theta0 < π")
+        if not self.l > 0.0:
+            raise ValueError(f"its centre lies above O on the axis: l > 0, not {self.l}")
         J = np.diag([self.A, self.A, self.C])
         object.__setattr__(self, "masses", {"top": Mass(self.m, J)})
 

@@ -116,6 +116,8 @@ def test_what_has_no_answer():
     for theta0 in (0.0, math.pi, -0.1):
         with pytest.raises(ValueError, match="0 < theta0 < π"):
             example("heavy_top", theta0=theta0)
+    with pytest.raises(ValueError, match="l > 0"):
+        example("heavy_top", l=-0.05)
 
 
 def without_steiner(self: Any) -> float:
