@@ -113,21 +113,24 @@ class Drag(Force):
         """F·v: along an edge F is not against v."""
         return np.sum(self._exerted(motion) * motion.point(self.at)[:, 2:], axis=1)
 
+    @property
+    def _most(self) -> float:
+        """The largest d [N]."""
+        return max(d for way in self.ways for d in (way.forward, way.backward))
+
     def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
         """The largest d/m at 1 m/s."""
-        most = max(d for way in self.ways for d in (way.forward, way.backward))
-        return 0.0, most * sum(mobility(at) for at in self.refers())
+        return 0.0, self._most * sum(mobility(at) for at in self.refers())
 
     def quickens(self, begins: float, load: float) -> float:
         """With α > 1 v^(α−1), of the start or as it carries the load.
 
         With less what is slow is slowed down most, and 1 m/s is as good as any.
         """
-        most = max(d for way in self.ways for d in (way.forward, way.backward))
-        if self.exponent <= 1 or not most:
+        if self.exponent <= 1 or not self._most:
             return 1.0
         try:
-            return max(begins, (load / most) ** (1 / self.exponent)) ** (self.exponent - 1)
+            return max(begins, (load / self._most) ** (1 / self.exponent)) ** (self.exponent - 1)
         except OverflowError:
             return inf
 
