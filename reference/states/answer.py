@@ -1,6 +1,6 @@
 """Case → every quantity of its states, and what its answers differ by."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -10,13 +10,13 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
 from ...cases.scene import Scene
-from ...cases.scene.frame import PLANE, SPACE
+from ...cases.scene.frame import SPACE
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import observe
 from ...cases.scene.states import coordinates
 from ...cases.trajectory import Trajectory
 from ..certificate.agreement import Check, difference, relative, worst
-from ..certificate.errors import beyond, errors
+from ..certificate.errors import EPS, beyond, errors
 from ..coverage import equation
 from ..integrators.now import doing, reached
 from ..mechanism.modes.spatial_mode import SpatialMultibody
@@ -27,6 +27,11 @@ from .derived import by_virtual_work, derived, efforts, moving
 from .spatial_chain import SpatialChain
 
 LAW = 1e-12  # of the largest of a quantity: all of it is algebra, only rounding may differ
+ROUNDED = 12  # states with rounded numbers: in fewer the effects of two may cancel in each
+OF_SCENE, OF_STATE = 8, 2  # roundings of a number: it goes through so many on its way to a torque
+
+Row = tuple[Array, Array, Array]
+"""q, q̇ and q̈ of a state."""
 VARYING = ("coordinate", "velocity", "acceleration")  # kinds that no claim should leave constant
 
 
@@ -38,15 +43,20 @@ def answered(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     """
     generated = generated_mode(case)
     written = _written(case, generated)
-    built = _trajectory(case, generated, partial(derived, generated, case.scene, set(case.allow)))
+    tell = partial(derived, generated, case.scene, set(case.allow))
+    built = _trajectory(case, generated, tell, rows(case, generated))
     found, others, checks = built, {}, []
     if written is not None:
-        own, others = _trajectory(case, written, written.told), {"generated": built}
+        own = _trajectory(case, written, written.told, rows(case, written))
+        others = {"generated": built}
         # what a system does not tell is the generated mechanism's
         found = replace(own, reactions={**built.reactions, **own.reactions})
         checks.append(Check("generated states", _apart(case, found, built), LAW))
-    checks += _worked(case, generated, built)
-    checks += errors(case, found, others, 0.0)
+    if case.scene.frame is SPACE:
+        worked, size = _worked(case, generated, built)
+        checks += _chained(case, generated, built, worked, size)
+        others = {**others, "d'Alembert": worked}
+    checks += errors(case, found, {**others, **_rounded(case)}, 0.0)
     if mistakes := [*beyond(case, checks), *_constant(case, found)]:
         raise CaseError(mistakes)
     return found, tuple(checks)
@@ -83,7 +93,7 @@ def _written(case: Case, generated: Stated) -> Stated | None:
     return found
 
 
-def rows(case: Case, mode: Stated) -> Iterator[tuple[Array, Array, Array]]:
+def rows(case: Case, mode: Stated) -> Iterator[Row]:
     """q, q̇ and q̈ of every state, in the mode's order."""
     assert case.states is not None
     drawn = case.states.drawn(case.scene)
@@ -95,12 +105,15 @@ def rows(case: Case, mode: Stated) -> Iterator[tuple[Array, Array, Array]]:
 
 
 def _trajectory(
-    case: Case, mode: Stated, tell: Callable[[Array, Array, Array], Mapping[str, Any]]
+    case: Case,
+    mode: Stated,
+    tell: Callable[[Array, Array, Array], Mapping[str, Any]],
+    rows: Iterable[Row],
 ) -> Trajectory:
-    """The poses of a mode, and what is told for q, q̇ and q̈."""
+    """The poses of a mode, and what is told for each q, q̇ and q̈."""
     states: dict[str, list[object]] = {}
     told: dict[str, list[object]] = {}
-    for q, v, a in rows(case, mode):
+    for q, v, a in rows:
         for name, pose in mode.poses(0.0, q, v).items():
             states.setdefault(name, []).append(pose)
         for name, value in tell(q, v, a).items():
@@ -110,6 +123,53 @@ def _trajectory(
         {name: np.array(poses, float) for name, poses in states.items()},
         {name: np.array(values, float).ravel() for name, values in told.items()},
     )
+
+
+def _rounded(case: Case) -> dict[str, Trajectory]:
+    """Answers for numbers that a few roundings have changed, of the scene and of the states.
+
+    What cancels in a quantity, of long arms or of loads that are balanced, is not seen in its
+    size: by how much these answers differ is how well it is known.
+    """
+    found, random = dict[str, Trajectory](), np.random.default_rng(ROUNDED)
+    assert case.states is not None
+    turns = np.array([unit == "rad" for unit in coordinates(case.scene).values()])
+
+    def off(x: Array) -> Array:
+        return EPS * (2.0 * random.integers(0, 2, x.shape) - 1.0)
+
+    def near(x: Array) -> Array:
+        return x * (1.0 + OF_STATE * off(x))
+
+    for k in range(-(-ROUNDED // case.states.random)):
+        scene = _altered(case.scene, lambda x: x * (1.0 + OF_SCENE * off(x)))
+        mode = generated_mode(replace(case, scene=scene))
+        tell = partial(derived, mode, scene, set(case.allow))
+        moved = (
+            (np.where(turns, q + OF_STATE * off(q), near(q)), near(v), near(a))
+            for q, v, a in rows(case, mode)
+        )
+        found[f"rounded {k}"] = _trajectory(case, mode, tell, moved)
+    return found
+
+
+def _altered(scene: Scene, alter: Callable[[Array], Array]) -> Scene:
+    """The scene with other places, masses and inertias."""
+
+    def all_of(x: Sequence[float]) -> tuple[float, ...]:
+        return tuple(alter(np.array(x, float)).tolist())
+
+    bodies = {
+        name: replace(
+            body,
+            mass=all_of((body.mass,))[0],
+            inertia=all_of(body.inertia),
+            points={point: all_of(at) for point, at in body.points.items()},
+        )
+        for name, body in scene.bodies.items()
+    }
+    points = {name: replace(point, at=all_of(point.at)) for name, point in scene.points.items()}
+    return replace(scene, bodies=bodies, points=points)
 
 
 def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
@@ -132,19 +192,27 @@ def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
     return worst([difference(one, other), *told])
 
 
-def _worked(case: Case, mode: Stated, built: Trajectory) -> Iterator[Check]:
+def _worked(case: Case, mode: Stated, built: Trajectory) -> tuple[Trajectory, float]:
+    """The answer with d'Alembert's loads in place of Lagrange's, and their largest term."""
+    each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
+    loads = {
+        effort: np.array([row[name][0] for row in each]) for name, effort in efforts(case.scene)
+    }
+    size = worst(term for row in each for _, term in row.values())
+    return replace(built, reactions={**built.reactions, **loads}), size
+
+
+def _chained(
+    case: Case, mode: Stated, built: Trajectory, worked: Trajectory, size: float
+) -> Iterator[Check]:
     """The chain against what its joints hold, and Lagrange's equations against d'Alembert's."""
-    if case.scene.frame is PLANE:
-        return
     assert case.states is not None
     yield Check("joints hold (2.10), (2.15)", unheld(mode, case.scene, rows(case, mode)), LAW)
     read = misread(case.scene, built, case.states.drawn(case.scene))
     yield Check("coordinates read back", read, LAW)
-    each = [by_virtual_work(mode, case.scene.gravity, *row) for row in rows(case, mode)]
-    size = worst(term for row in each for _, term in row.values())
     apart = (
-        relative(built.reactions[effort], np.array([row[name][0] for row in each]), least=size)
-        for name, effort in efforts(case.scene)
+        relative(built.reactions[effort], worked.reactions[effort], least=size)
+        for _, effort in efforts(case.scene)
     )
     yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(apart), LAW)
 
@@ -163,7 +231,6 @@ def _constant(case: Case, found: Trajectory) -> Iterator[Mistake]:
 # joints read these back from the poses alone.
 
 
-Row = tuple[Array, Array, Array]
 THREE = 3  # turns, of which other angles make the same attitude
 
 

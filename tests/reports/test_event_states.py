@@ -17,6 +17,7 @@ from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.quantity import SIDES, AtEvent, Side, at_event
 from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reference.solve import solve
+from textmech.reports.compare.events import states as reading_states
 from textmech.reports.compare.events import times as reading
 from textmech.reports.compare.events.states import engine_states, mistaken, reference_states
 from textmech.reports.compare.events.times import engine_events, reference_events
@@ -106,6 +107,38 @@ def test_a_step_on_the_event_is_of_no_side(t: float) -> None:
         for side, value in zip(SIDES[1:], (1.0, 2.0), strict=True):
             at = AtEvent("hits", "box.vx", side)
             assert engine_states(CASE, record, at, np.array([t])) == pytest.approx([value])
+
+
+def blown(late: float, h: float = 1e-2) -> Trajectory:
+    """Speeds of 1.5 m/s, and of 0.4 + 0.1 t m/s from the row on that is so many steps behind."""
+    times = np.arange(round(1.0 / h) + 1, dtype=np.float64) * h
+    found = np.zeros((len(times), 6))
+    found[:, VX] = np.where(times < HITS + late * h, 1.5, 0.4 + 0.1 * times)
+    return Trajectory(times, {"box": found}, {})
+
+
+@pytest.mark.parametrize("h", [1e-2, 1e-3])
+@pytest.mark.parametrize("late", [0.0, 0.5, 0.99])
+def test_a_blow_that_the_next_row_does_not_tell_yet_is_not_continued(late: float, h: float) -> None:
+    """A step's blow is told at its end, or half a step later by a record between the steps."""
+    at, times = AtEvent("hits", "box.vx", "after"), np.array([HITS])
+    for tube in (0.0, h / 2, 2 * h, 4 * h):
+        case: Any = SimpleNamespace(scene=SCENE, tube=tube)
+        found = engine_states(case, blown(late, h), at, times)
+        assert found == pytest.approx([0.4 + 0.1 * (HITS + tube)], abs=1e-12)
+
+
+def test_a_blow_that_lasts_for_more_than_a_step_is_told_as_it_is() -> None:
+    """It is no rounding of a step: the row says so, and that the case may give a `tube`."""
+    found = engine_states(CASE, blown(1.9), AtEvent("hits", "box.vx", "after"), np.array([HITS]))
+    assert abs(found[0] - (0.4 + 0.1 * HITS)) > 0.5
+
+
+@pytest.mark.mutant("a curve through the rows before and after a blow")
+def test_a_curve_through_a_blow_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reading_states, "_behind", lambda steps, u, rows, t: rows)
+    found = engine_states(CASE, blown(0.99), AtEvent("hits", "box.vx", "after"), np.array([HITS]))
+    assert found[0] > 1.5
 
 
 @pytest.mark.parametrize("tube", [0.05, 0.2])

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.passages import passages
-from textmech.cases.trajectory import VX, Array, Trajectory
+from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reports.compare.events import rests as reading
 from textmech.reports.compare.events.rests import rests
 from textmech.reports.compare.events.times import engine_events, falls, reference_events
@@ -197,6 +197,37 @@ def test_what_rests_on_the_floor_falls_once() -> None:
     t = grid(1.0)
     height = np.clip(1 - 2 * t, 0, None) + 1e-6 * np.random.default_rng(1).standard_normal(len(t))
     assert falls(t, height) == pytest.approx([0.5], abs=H)
+
+
+def taut(small: float) -> tuple[Array, Array]:
+    """How slack a rope is that an impact pulls taut at 0.05 s: then rounding, of either sign."""
+    t = grid(0.1, 4e-3)
+    u = np.maximum(0.05 - t, 0.0)
+    u[t > 0.05] = small
+    u[t > 0.06] *= np.where(np.arange(np.sum(t > 0.06)) % 3 == 2, -1.0, 1.0)
+    return t, u
+
+
+@pytest.mark.parametrize("small", [0.0, 1e-17, 1e-12, -1e-17])
+def test_what_an_impact_leaves_of_a_gap_is_zero(small: float) -> None:
+    assert falls(*taut(small), small=5e-11) == pytest.approx([0.05], abs=1e-12)
+
+
+@pytest.mark.mutant("a gap of 1e-17 m is open")
+def test_a_gap_that_is_compared_with_zero_itself_would_be_seen() -> None:
+    assert falls(*taut(1e-17)) != pytest.approx([0.05], abs=4e-3)
+
+
+def slack(t: Array, u: Array) -> Trajectory:
+    found = np.zeros((len(t), 6))
+    found[:, X] = u
+    return Trajectory(t, {"box": found}, {}, phase=np.where(t > 0.05, 1, 0))
+
+
+def test_an_engine_that_keeps_a_rope_taut_up_to_rounding_is_told_in_time() -> None:
+    record = slack(*taut(1e-17))
+    found = engine_events(SCENE, record, Event("box.x", "falls to zero"))
+    assert found == pytest.approx([0.05], abs=1e-12)
 
 
 def phased(*pieces: tuple[float, float, Callable[[Array], Array]]) -> Trajectory:

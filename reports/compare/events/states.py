@@ -24,6 +24,7 @@ from .times import faint, grazed, limit_of, never, reference_events
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
 BESIDE = 1e-6  # of a step: a row so near an event may be before it or after it
+JUMP = 10  # times the largest of the next changes from row to row: no curve goes through both
 
 Rows = NDArray[np.int64]
 
@@ -62,11 +63,27 @@ def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> 
     found = []
     for t in times.tolist():
         if at.side == "after":
-            read, rows = min(t + case.tube, float(steps[-1])), np.flatnonzero(steps > t + near)
+            read = min(t + case.tube, float(steps[-1]))
+            rows = _behind(steps, u, np.flatnonzero(steps > t + near), t)
         else:
             read, rows = t, np.flatnonzero(steps < t - near)
         found.append(_curve(steps, u, rows, read, STEPS) if len(rows) else np.nan)
     return np.array(found, float)
+
+
+def _behind(steps: Array, u: Array, rows: Rows, t: float) -> Rows:
+    """The rows without those, within a step of the event at t, from which u still has to jump.
+
+    An engine knows a blow at the end of the step that holds it, and a record between its steps
+    half of one later still.
+    """
+    within = t + float(steps[1] - steps[0])
+    while len(rows) > STEPS and steps[rows[0]] < within:
+        first, *others = np.abs(np.diff(u[rows[: STEPS + 1]])).tolist()
+        if first <= JUMP * max(others):
+            break
+        rows = rows[1:]
+    return rows
 
 
 def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:

@@ -180,21 +180,23 @@ def engine_events(
     the quantity.
     """
     times, u = record.times, event.falling(observe(scene, record, event.quantity))
-    found = _read(times, u, event, share)
+    small = still(scene, record, event.quantity)
+    found = _read(times, u, event, share, small)
     larger = [each for each in reversed(SHARES) if each > share > 0.0]
     if count is None or len(found) == count:
         return found
-    others = (_read(times, u, event, each) for each in larger)
+    others = (_read(times, u, event, each, small) for each in larger)
     return next((other for other in others if len(other) == count), found)
 
 
-def _read(times: Array, u: Array, event: Event, share: float) -> Array:
-    """Times (K,) [s] of the event, from u (N,) at steps."""
+def _read(times: Array, u: Array, event: Event, share: float, small: float) -> Array:
+    """Times (K,) [s] of the event, from u (N,) at steps; small: as `falls` says."""
     if not event.crosses:
         found = rests(times, u, share or LOW)
         ends = [stop if event.rule == "stays zero" else start for stop, start in found]
         return np.array([t for t in ends if t is not None], float)
-    return _to_rest(times, u, falls(times, u), share) if share else falls(times, u)
+    fallen = falls(times, u, small)
+    return _to_rest(times, u, fallen, share) if share else fallen
 
 
 def _to_rest(times: Array, u: Array, fallen: Array, share: float) -> Array:
@@ -228,9 +230,10 @@ def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, ste
     if event.crosses and not _comes_to_rest(scene, record, event):
         return 0.0
     times, u = _at_steps(scene, record, event, step)
+    small = still(scene, record, event.quantity)
 
     def right(share: float) -> bool:
-        found = _read(times, u, event, share)
+        found = _read(times, u, event, share, small)
         return len(found) == len(happened) and bool(np.all(np.abs(found - happened) <= step))
 
     return next((share for share in SHARES if right(share)), 0.0 if event.crosses else LOW)
@@ -270,18 +273,20 @@ def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tu
     return times, found
 
 
-def falls(times: Array, u: Array) -> Array:
-    """When u (N,) falls to zero, as `_through` says.
+def falls(times: Array, u: Array, small: float = 0.0) -> Array:
+    """When u (N,) falls to zero, as `_through` says; up to `small` it is zero, as the reference's.
 
+    A rope that an exact impact has pulled taut stays so up to rounding, of either sign.
     An impact may turn u back before any step sees it at zero: then it is the zero of what went
     before, if the line through the last two falling steps has one within the next and u then rises.
     What rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
-    turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
-    last = (2 * u[-2:-1] <= u[-3:-2]) & (u[-2:-1] > 0) & (u[-1:] > 0)  # behind it no step tells
+    off = u > small
+    turned = (2 * now <= before) & off[1:-2] & off[2:-1] & (then > after)
+    last = (2 * u[-2:-1] <= u[-3:-2]) & off[-2:-1] & off[-1:]  # behind it no step tells
     turned = np.append(turned, last)
-    through = (u[:-1] > 0) & (u[1:] <= 0)
+    through = off[:-1] & ~off[1:]
     seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
     seen |= {int(i) + 1: _through(times, u, int(i) + 1, int(i)) for i in np.flatnonzero(turned)}
     largest, last = float(np.max(np.abs(u))), 0
@@ -310,7 +315,8 @@ def surely(
     if not len(happened):
         return np.arange(0)
     if not event.crosses:
-        found = _read(*_at_steps(scene, record, event, step), event, share)
+        small = still(scene, record, event.quantity)
+        found = _read(*_at_steps(scene, record, event, step), event, share, small)
         partners = nearest(found[: len(happened)], happened)
         close = np.abs(found[: len(happened)] - happened[partners]) <= STEPS * step
         return partners[close]
