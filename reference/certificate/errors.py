@@ -82,8 +82,6 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
     found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
     size, quantity = worst(np.abs(own).ravel()), case.quantities[name]
     columns = case.scene.frame.alike(quantity.unit)
-    if case.states is not None and quantity.unit == "m":  # a sum along the chain, which may cancel
-        size = max(size, _summed(case))
     if quantity.kind != "force":
         # How far places are apart is known as well as they are, which may be far from the origin;
         # and one coordinate of a body on a wire as well as the other.
@@ -91,13 +89,6 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
         states = motion.states.values() if mine is None else [mine]
         size = worst([size, *(worst(np.abs(s[:, columns]).ravel()) for s in states)])
     return worst([EPS * size, *map(worst, found)])
-
-
-def _summed(case: Case) -> float:
-    """All lengths [m] of which a place of a chain is the sum."""
-    points = [point.at for point in case.scene.points.values()]
-    points += [at for body in case.scene.bodies.values() for at in body.points.values()]
-    return float(sum(np.max(np.abs(at)) for at in points))
 
 
 def least(case: Case, name: str) -> float | None:

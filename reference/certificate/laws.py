@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...cases.scene.frame import SPACE
 from ...cases.trajectory import Trajectory
 from ..formalisms import appell, chaplygin, energy, lagrange, lagrangian, newton_euler, voronets
 from ..formalisms.dependent import dependent
@@ -22,9 +23,11 @@ from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
+from .reaction_check import reacting, unexplained
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 DRIFT = 10  # roundings a step: more than that is no drift, but another drive
+SMALL = 1e-3  # of the largest force of a motion: of less, what rounding leaves is more than LAW
 SOME = 8  # samples: a force that is zero at one of them is none at the others
 BESIDE = 1  # state of a mode beside its motion; the tests draw a hundred
 OF_MULTIPLIERS = 0.1  # of what reduced equations lose: masses are not multiplied with each other
@@ -84,6 +87,26 @@ class Scale:
         rates = self.base.place(mode.poses(t, q, v))[1]
         spatial = isinstance(self.base, SpatialMultibody)
         return worst(np.abs(rates[self.base.where.turning])) if spatial else 0.0
+
+    def idle(self, mode: Mode, t: float, q: Array, n: int) -> Array:
+        """(n,) how fast each rate is with which no body is faster than in the whole motion."""
+        still = self.base.where.velocities(mode.poses(t, q, np.zeros(n)))
+        ways = [self.base.where.velocities(mode.poses(t, q, e)) - still for e in np.eye(n)]
+        with np.errstate(divide="ignore"):
+            found = np.min(self.speeds / np.abs(ways), axis=1)
+        return np.where(np.isfinite(found), found, 1.0)
+
+    def assembled(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
+        """Whether no body of space turns so far from q that axes which a joint holds may flip.
+
+        Rows of right angles hold of both ways in which two axes are in line.
+        """
+        if not isinstance(self.base, SpatialMultibody):
+            return True
+        turning = [body.name for body in self.base.where.scene.bodies.values() if body.turns]
+        both = [mode.poses(t, at, v) for at in (q, there)]
+        a, b = ([poses[name][SPACE.attitude] for name in turning] for poses in both)
+        return all(abs(np.dot(x, y)) > EIGHTH for x, y in zip(a, b, strict=True))
 
     def accelerated(self, mode: Mode, times: Array, y: Array) -> float:
         """The largest of them at some samples of a motion, and of the accelerations.
@@ -175,9 +198,8 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
                 by_one.append(worst(np.abs(lagrangian.unbalanced(mode, t, q, v, a))))
         balances.append(abs(float(np.sum(terms))))
         if written:
-            residual, cut_free = newton_euler.balance(mode, t, q, v, a)
-            unbalanced.append(residual)
-            forces += _other_forces(cut_free, mode.reactions(t, q, v))
+            unbalanced.append(newton_euler.balance(mode, t, q, v, a))
+            forces.append(_other_forces(mode, unbalanced[-1].reactions, t, q, v))
     size, power = worst(sizes) or 1.0, worst(powers) or 1.0
     by = "Lagrange with multipliers (2.60)" if bound else "Lagrange (2.44)"
     lost = max(LAW, OF_MULTIPLIERS * _rounding(mode, 1.0))
@@ -187,9 +209,12 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     beside = min(_beside(worst(drifted) / power), max(LAW, scale.drift))
     yield Check("power balance (2.51)", worst(balances) / power, beside)
     if written:
-        yield Check("Newton-Euler balance (2.23), (2.27)", worst(unbalanced), LAW)
-    if forces:  # a system need not know its reactions
-        yield Check("reactions by Newton-Euler", worst(forces), LAW)
+        least = SMALL * worst(one.largest for one in unbalanced)
+        apart = worst(one.share(least) for one in unbalanced)
+        yield Check("Newton-Euler balance (2.23), (2.27)", apart, LAW)
+    known = [apart for apart in forces if apart is not None]
+    if known:  # a system need not know its reactions
+        yield Check("reactions by Newton-Euler", worst(known), LAW)
 
 
 def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Check]:
@@ -201,7 +226,7 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
     """
     found: dict[str, list[float]] = {}
     bound, least = LAW, scale.accelerated(mode, times, y)
-    for t, q, v in drawn(mode, times, y, BESIDE):
+    for t, q, v in drawn(mode, times, y, BESIDE, scale):
         by = dependent(mode, t, q, len(v))
         if by is None or not (condition := by.condition(t, q)) < SINGULAR:
             continue
@@ -231,12 +256,16 @@ def _rounding(mode: Mode, condition: float) -> float:
     return 10.0 ** math.ceil(math.log10(10 * np.finfo(float).eps * lost))
 
 
-def _other_forces(cut_free: Mapping[str, float], written: Mapping[str, float]) -> Iterator[float]:
+def _other_forces(
+    mode: Mode, cut_free: Mapping[str, float], t: float, q: Array, v: Array
+) -> float | None:
     """Relative to the largest; friction that slides is an applied force, and no cut finds it."""
-    size = worst(abs(force) for force in cut_free.values())
-    for name in written:
-        if name in cut_free:
-            yield abs(cut_free[name] - written[name]) / (size or 1.0)
+    written = mode.reactions(t, q, v)
+    if not cut_free.keys() & written.keys():
+        return None
+    size = worst(abs(force) for force in cut_free.values()) or 1.0
+    apart = worst(abs(cut_free[name] - written[name]) for name in written if name in cut_free)
+    return unexplained(apart / size, size, (reacting(mode), t, q, v))
 
 
 # Random states beside a motion, such as the mode allows: what the motion itself never shows.
@@ -248,20 +277,25 @@ def _other_forces(cut_free: Mapping[str, float], written: Mapping[str, float]) -
 SEED = 8
 FAR = 0.1  # of what the fastest of the motion would do in its time
 SMALLER = 40  # halvings: after them the motion's own states are drawn, but for rounding
+EIGHTH = math.cos(math.pi / 8)  # of half of 45°: two bodies turn by less than 90° to each other
 CLOSED = 1e-13  # of the largest coordinate, or of 1: f is 0 but for rounding
 TURNS = 60  # of the fixed point: it gains a digit in four, or the way is too long
 
 
-def drawn(mode: Mode, times: Array, y: Array, count: int) -> Iterator[tuple[float, Array, Array]]:
+def drawn(
+    mode: Mode, times: Array, y: Array, count: int, scale: Scale | None = None
+) -> Iterator[tuple[float, Array, Array]]:
     """t, q (m,), v (n,): as many as asked for, beside samples y (N, ·) of a motion in this mode.
 
-    What never moves in the motion moves as fast as the slowest of the others.
+    What never moves in the motion moves as the scale says, or 1 without one.
     """
     random = np.random.default_rng(SEED)
     states = [mode.parted(row) for row in y]
     fastest = np.max(np.abs([v for _, v in states]), axis=0, initial=0.0)
-    moving = fastest[fastest > 0.0]
-    fastest = np.where(fastest > 0.0, fastest, moving.min() if len(moving) else 1.0)
+    if not np.all(fastest > 0.0):
+        first = states[0][0]
+        idle = scale.idle(mode, float(times[0]), first, len(fastest)) if scale else 1.0
+        fastest = np.where(fastest > 0.0, fastest, idle)
     way = FAR * (float(times[-1] - times[0]) or 1.0) * fastest
     for _ in range(count):
         at = int(random.integers(len(times)))
@@ -269,7 +303,7 @@ def drawn(mode: Mode, times: Array, y: Array, count: int) -> Iterator[tuple[floa
         turn, quick = random.uniform(-1.0, 1.0, (2, len(v)))
         for halved in 0.5 ** np.arange(SMALLER):
             place = _closed(mode, t, q, halved * turn * way)
-            if place is not None:
+            if place is not None and (scale is None or scale.assembled(mode, t, q, v, place)):
                 yield t, place, _bound(mode, t, place, v + halved * quick * fastest)
                 break
 

@@ -40,7 +40,7 @@ def reaction_checks(
         a = _accelerations(mode, generated.base, t, q, v)
         size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0
         apart = worst(np.abs(other.accelerations(t, *place) - a)) / size
-        moved.append(_unexplained(apart, size, other.accelerations, t, *place))
+        moved.append(unexplained(apart, size, (other.accelerations, t, *place)))
         rows = other.f_a(t, place[0])
         uneven = max(uneven, condition(rows, generated.base))
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
@@ -49,8 +49,7 @@ def reaction_checks(
         if apart > AGREE:
             most = max(force, _borne(rows, generated.base, t, *place))
             apart, force = apart * force / most, most
-        forces = lambda *at, other=other: np.array([*other.reactions(*at).values()])  # noqa: E731
-        apart = _unexplained(apart, force, forces, t, *place)
+        apart = unexplained(apart, force, (reacting(other), t, *place), (reacting(mode), t, q, v))
         held += [apart] if own.keys() & theirs.keys() else []
     least = max(AGREE, lost(uneven))
     yield Check("generated accelerations", worst(moved), least)
@@ -83,13 +82,24 @@ def _borne(rows: Array, base: Multibody, t: float, q: Array, v: Array) -> float:
     return worst((along * base.largest(t, q, v)).ravel())
 
 
-def _unexplained(
-    apart: float, size: float, of: Callable[..., Array], t: float, q: Array, v: Array
-) -> float:
-    """The difference; none where the state's own rounding may be all of it, in powers of ten."""
+Follows = tuple[Callable[..., Array], float, Array, Array]
+"""What follows from a state, and the state: t [s], q and v."""
+
+
+def unexplained(apart: float, size: float, *follows: Follows) -> float:
+    """The difference; none where the states' own rounding may be all of it, in powers of ten.
+
+    Of two answers each has a state of its own: beside a dead centre that of one tells it badly.
+    """
     if not apart > AGREE:
         return apart
-    return 0.0 if apart <= _power(_steep(of, t, q, v) / size) else apart
+    steep = sum(_steep(*one) for one in follows)
+    return 0.0 if apart <= _power(steep / size) else apart
+
+
+def reacting(mode: Mode) -> Callable[..., Array]:
+    """The mode's reactions as one array."""
+    return lambda t, q, v: np.array([*mode.reactions(t, q, v).values()])
 
 
 def _steep(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:

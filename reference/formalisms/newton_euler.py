@@ -4,6 +4,8 @@ The bodies move as `poses` says, the forces are `loads` and the unknown reaction
 energies play no part.
 """
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,13 +17,23 @@ from .lagrange import constraint_acceleration, constraint_rows
 from .wrench import gyroscopic, inertial, none, rows, velocity, wrench
 
 
-@equation
-def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> tuple[float, dict[str, float]]:
-    """(2.23) m r̈_c = F, (2.27) J ω̇ = M_c at the accelerations a (n,), reactions by least squares.
+@dataclass(frozen=True)
+class Balance:
+    """What stays unbalanced, and the largest there is: forces [N] or moments [N m]; reactions [N]
+    by quantity."""
 
-    Answers the largest force [N] or moment [N m] that stays unbalanced, relative to the largest
-    one there is, and the reactions [N] by quantity.
-    """
+    unbalanced: float
+    largest: float
+    reactions: Mapping[str, float]
+
+    def share(self, least: float = 0.0) -> float:
+        """What stays unbalanced, of the largest there is, or of as much [N, N m]."""
+        return self.unbalanced / (max(self.largest, least) or 1.0)
+
+
+@equation
+def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> Balance:
+    """(2.23) m r̈_c = F, (2.27) J ω̇ = M_c at accelerations a (n,), reactions by least squares."""
     turning = gyroscopic_moments(system, t, q, v)
     change = accelerated(system, t, q, v, a) + turning
     applied, reacting = load_forces(system, t, q, v), reaction_columns(system, t, q, v)
@@ -33,7 +45,8 @@ def balance(system: Mode, t: float, q: Array, v: Array, a: Array) -> tuple[float
     parts = [abs(change).max(), abs(turning).max(), abs(reacting * unknown).max(initial=0.0)]
     terms = max(*parts, *single)
     unbalanced = change - applied - reacting @ unknown
-    return float(abs(unbalanced).max() / (terms or 1.0)), reactions_by_name(system, t, q, unknown)
+    reactions = reactions_by_name(system, t, q, unknown)
+    return Balance(float(abs(unbalanced).max()), float(terms), reactions)
 
 
 @equation

@@ -97,6 +97,7 @@ def off(
 
 
 @pytest.mark.slow
+@pytest.mark.mutant("a rope that would have to push keeps its part in an impact")
 def test_a_rope_that_would_have_to_push_is_let_go(tmp_path: Path) -> None:
     """Measured 7e-5 m and rad, 1e-3 rad/s, of second order.
 

@@ -62,7 +62,7 @@ def free_cut(system: System, at: At) -> float:
         a = mode.accelerations(t, q, v)
         # What is at rest has no acceleration to compare with: 1 m/s² or rad/s² then.
         worst = max(worst, difference(a, newton_euler.accelerations(mode, t, q, v)[0], 1.0))
-        worst = max(worst, newton_euler.balance(mode, t, q, v, a)[0])
+        worst = max(worst, newton_euler.balance(mode, t, q, v, a).share())
     return worst
 
 
@@ -72,7 +72,7 @@ def reactions(system: System, at: At) -> float:
     for t, q, v in states(*at):
         written = mode.reactions(t, q, v)
         _, solved = newton_euler.accelerations(mode, t, q, v)
-        _, balanced = newton_euler.balance(mode, t, q, v, mode.accelerations(t, q, v))
+        balanced = newton_euler.balance(mode, t, q, v, mode.accelerations(t, q, v)).reactions
         for found in (solved, balanced):
             assert written.keys() - found.keys() == set(APPLIED.get(at, ()))
             keys = list(found)

@@ -82,6 +82,17 @@ def test_a_scene_that_is_changed_under_its_system_is_told_as_that(files: Path) -
     assert what not in CliRunner().invoke(command, ["check", str(files / "sound.yaml")]).output
 
 
+@pytest.mark.slow
+def test_what_a_system_has_no_mode_for_is_told_as_that(files: Path) -> None:
+    """A ladder that starts at 7° lies on the floor before the end."""
+    text = shipped()["sliding_ladder"].read_text(encoding="utf-8")
+    (files / "low.yaml").write_text(text.replace("phi0: 70 deg", "phi0: 7 deg"), "utf-8")
+    done = CliRunner().invoke(command, ["check", str(files / "low.yaml")])
+    assert done.exit_code == 1
+    what = "the system 'sliding_ladder' has no mode for what happens here: leave out `system`"
+    assert f"FAILS: {what}" in done.output
+
+
 @pytest.mark.parametrize(
     "name",
     ["#h.yaml", "=cmd().yaml", "@x.yaml", "a\nb.yaml", "esc\x1b[31m.yaml", "l" * 150 + ".yaml"],

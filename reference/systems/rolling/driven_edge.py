@@ -15,7 +15,8 @@ from ...system import Array, Cut, Vector
 from ..quadrature import integral
 from .blade_on_plane import BladeOnPlane
 
-PANELS = 4  # per radian of the drive, and of the fastest turn
+PANELS = 4  # per radian of the drive, of the fastest turn and of what ω grows by
+MOST = 60  # panels, each of which asks for as many: with more it is a matter of minutes
 
 
 @dataclass(frozen=True)
@@ -54,15 +55,19 @@ class DrivenEdge(BladeOnPlane):
         return {"blade.force": float(self.m * share * s * v[2]), "blade.drive": float(along)}
 
     @equation
-    def closed_form(self, t: float) -> tuple[Array, Array]:
+    def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.60) ω = ω₀ exp(−κ (A/Ω) (cos α − cos(Ω t + α))), κ = m a/(J + m a²).
 
-        θ is the integral of ω, and the path of P that of s (cos θ, sin θ).
+        θ is the integral of ω, and the path of P that of s (cos θ, sin θ); None where they take
+        too many panels.
         """
         kappa = self.m * self.a / (self.J + self.m * self.a**2)
         reach = kappa * self.A / self.Omega
-        fastest = abs(self.w0) * math.exp(2 * abs(reach))
-        panels = 1 + math.ceil(PANELS * max(self.Omega, fastest) * t / math.tau)
+        grown = max(reach * (sign - math.cos(self.alpha)) for sign in (-1.0, 1.0))
+        fastest = max(abs(self.Omega) * max(1.0, abs(reach)), abs(self.w0) * math.exp(grown))
+        panels = 1 + math.ceil(PANELS * fastest * t / math.tau)
+        if panels > MOST:
+            return None
 
         def omega(s: Array) -> Array:
             turned = np.cos(self.alpha) - np.cos(self.Omega * s + self.alpha)

@@ -6,6 +6,7 @@ from ....reference.solve import Solution
 from ...data.row import FAILS
 from .compare import Outcome
 
+POSSIBLE = "modes possible"
 MOVES = tuple(f"generated {what}" for what in ("motion", "accelerations", "reactions", "states"))
 
 
@@ -19,12 +20,15 @@ def uncertified(solution: Solution) -> str:
 def otherwise(solution: Solution) -> str:
     """Words for a hand-written system of another scene, if that is what does not hold."""
     broken = [check.name for check in solution.checks if not check.holds]
-    if solution.system == "generated" or not any(name in MOVES for name in broken):
+    if solution.system == "generated":
         return ""
-    return (
-        f"the system {solution.system!r} moves otherwise than this scene, or by other forces: "
-        "leave out `system`, then the scene alone answers; or undo what has been changed; "
-    )
+    alone = "leave out `system`, then the scene alone answers; or undo what has been changed; "
+    if POSSIBLE in broken:
+        return f"the system {solution.system!r} has no mode for what happens here: {alone}"
+    if any(name in MOVES for name in broken):
+        what = "moves otherwise than this scene, or by other forces"
+        return f"the system {solution.system!r} {what}: {alone}"
+    return ""
 
 
 def failing(outcome: Outcome, because: str) -> Outcome:

@@ -12,11 +12,12 @@ from given.engine_scenes import RADIUS, WHEEL, G, guided, incline, launched, mac
 from given.planning import TUNED, moved, planned
 from given.swings import generated
 
-from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Scene
+from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Motor, Scene, Signal
 from textmech.cases.scene.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
 from textmech.engines.pymunk.callbacks.line_forces import drifting
+from textmech.engines.pymunk.callbacks.turning import motor_load
 from textmech.engines.pymunk.stepping.scene import build
 
 ENGINE = TUNED["pymunk"]
@@ -87,6 +88,17 @@ def test_a_point_ahead_has_turned_with_its_body() -> None:
     assert lever == pytest.approx(wanted, abs=1e-15)
     assert (x, y) == pytest.approx(wanted, abs=1e-15)
     assert (vx, vy) == pytest.approx((-20.0 * wanted[1], 20.0 * wanted[0]), abs=1e-13)
+
+
+@pytest.mark.mutant("a motor by law that turns backward")
+def test_a_motor_turns_the_second_part_of_its_joint() -> None:
+    """As `twist`, whose law of the angle between the two is another one."""
+    hand = Motor("hand", "axle", Signal("ramp", (0.31,)))
+    wheel = disk(name="wheel", mass=1.3, radius=RADIUS, points={})
+    scene = machine([wheel], [pin("axle", "ground.O", "wheel.center")], forces=[hand])
+    world = build(scene, {"wheel": (0.0,) * 6}, {}, "law")
+    load = motor_load(world, hand, "wheel")(0.5, 1e-3, (0.0,) * 6)
+    assert load == pytest.approx((0.0, 0.0, 0.155))
 
 
 def stopped(static: float) -> list[float]:

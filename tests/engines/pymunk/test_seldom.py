@@ -131,6 +131,7 @@ class Pressed(pymunk.RotaryLimitJoint):
         return 2.0
 
 
+@pytest.mark.mutant("both ends of a stop push at once")
 def test_one_end_of_a_stop_pushes_at_a_time() -> None:
     """That which is nearer; of a single stop the other is a million radians away."""
     assert angle(-0.5, 1.5, -0.51) == (2.0, 0.0)
@@ -151,6 +152,7 @@ def touching(parting: float) -> list[str]:
     return [found.name for found in closed_pairs(one, state)]
 
 
+@pytest.mark.mutant("bodies that part pressed together at the start")
 def test_what_is_about_to_part_is_not_pressed_together() -> None:
     assert len(touching(0.0)) == 1
     assert len(touching(-0.2)) == 1

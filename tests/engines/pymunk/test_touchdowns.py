@@ -170,6 +170,10 @@ BESIDE = {
         "",
     ),
     "cord: {rope: [ground.O, one.center], length: 3}": ("points: {O: [0, 1]}", ""),
+    "turn: {torsion_damper: guide, damping: 0.1}": (
+        "points: {O: [0, 1]}\n  joints: {guide: {slot: [ground.O, one.center], along: [0, 1]}}",
+        "",
+    ),
     "none": ("", "friction: {static: 0.4, kinetic: 0.3}"),
 }
 
@@ -184,6 +188,7 @@ def beside(force: str, folder: Path) -> bool:
     return cut.cuts(scenes.typed(folder, text, tail=scenes.tail(0.2, 26)).scene)
 
 
+@pytest.mark.mutant("a step that is cut beside {force}")
 @pytest.mark.parametrize("force", BESIDE)
 def test_what_a_step_of_any_length_does_not_bear_is_not_cut(force: str, tmp_path: Path) -> None:
     """Planted by hand: each of the conditions of `cuts` left out."""

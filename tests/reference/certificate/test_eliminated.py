@@ -32,6 +32,12 @@ class Unit(laws.Scale):
     def alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
         return 1.0
 
+    def idle(self, mode: Mode, t: float, q: Array, n: int) -> Array:
+        return np.ones(n)
+
+    def assembled(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
+        return True
+
 
 def checks(mode: Mode, y: Array) -> dict[str, Check]:
     return {check.name: check for check in laws.eliminated(mode, Unit(), TIMES, y)}

@@ -13,12 +13,14 @@ import pytest
 from given import scenes
 
 from textmech.cases.case import Case
-from textmech.reference.certificate import certify
+from textmech.cases.find import shipped
+from textmech.reference.certificate import certify, laws
 from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.solve import Solution, solve
 from textmech.reference.system import Array
+from textmech.reference.systems.linkages.four_bar import FourBar
 
 SPINS = """\
 scene:
@@ -109,6 +111,108 @@ def test_power_that_is_lost_is_seen(
     assert "power balance (2.51)" in broken(
         solve(scenes.typed(tmp_path, SLIPS.format(R=R), tail=TAIL))
     )
+
+
+# What never moves is drawn as fast as its body is in the whole motion, and no joint is turned over.
+TINY = """\
+scene:
+  space: 3
+  gravity: none
+  bodies:
+    b:
+      rigid: {mass: 1.0e-15, inertia: [1.0e-28, 1.5e-28, 2.0e-28, 0, 0, 0]}
+      points: {P: [1.0e-6, 0, 0]}
+initial: {b: {x: 0, y: 0, z: 0, attitude: {axis: [0, 0, 1], angle: 0}, omega: [1, 2, 3]}}
+allow: {b.omega_1: 1.0e-3}
+"""
+FAN = """\
+scene:
+  space: 3
+  gravity: none
+  bodies:
+    hull: {rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.04, 0, 0, 0]}}
+    fan: {rigid: {mass: 0.3, inertia: [2.0e-3, 3.0e-3, 4.0e-3, 0, 0, 0]}}
+  joints: {spin: {hinge: [hull.center, fan.center], axis: [0, 0, 1]}}
+  forces: {m: {motor: spin, constant: 0.1}}
+initial:
+  hull: {x: 0, y: 0, z: 0, attitude: {axis: [0, 0, 1], angle: 0}, omega: [20, 5, 5]}
+  spin: {angle: 0, omega: 30}
+allow: {hull.omega_1: 1.0e-1}
+"""
+BESIDE = {"tiny": TINY, "fan": FAN}
+
+
+def drawn(folder: Path, name: str) -> set[str]:
+    return broken(solve(scenes.typed(folder, BESIDE[name], tail=scenes.tail(1.0, 11))))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", BESIDE)
+def test_states_beside_a_motion_are_of_its_size_and_of_its_assembly(
+    name: str, tmp_path: Path
+) -> None:
+    assert not drawn(tmp_path, name)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a rate in rad/s for one in m/s, of what never moves")
+def test_a_rate_of_another_unit_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(laws.Scale, "idle", lambda self, mode, t, q, n: np.ones(n))
+    assert "accelerations by Voronets (2.66)" in drawn(tmp_path, "tiny")
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a hinge that is turned over, beside a motion")
+def test_a_hinge_that_is_turned_over_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(laws.Scale, "assembled", lambda *given: True)
+    assert "accelerations by Voronets (2.66)" in drawn(tmp_path, "fan")
+
+
+# Systems whose own equations divide by next to nothing, or whose forces are rounding's.
+ALTERED = {
+    "four_bar": ("d: 0.9", "d: 0.44"),  # coupler and rocker pass in line within 0.005 rad
+    "dynamometer_smooth": ("F_minus: 3.0", "F_minus: 1.5"),  # 6e-44 N at the first sample
+}
+
+
+def altered(folder: Path, name: str) -> Case:
+    text = shipped()[name].read_text(encoding="utf-8")
+    old, new = ALTERED[name]
+    assert old in text
+    head, _, _ = text.replace(old, new).partition("reach:")
+    (folder / f"{name}.yaml").write_text(head, encoding="utf-8")
+    return scenes.load(folder / f"{name}.yaml")[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ALTERED)
+def test_systems_with_other_numbers_hold(name: str, tmp_path: Path) -> None:
+    assert not broken(solve(altered(tmp_path, name)))
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a reaction off by 1e-9 beside a dead centre")
+def test_a_reaction_beside_a_dead_centre_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = altered(tmp_path, "four_bar")
+    sound = FourBar.reactions
+
+    def wrong(self: Any, t: float, q: Array, v: Array) -> dict[str, float]:
+        return {name: force * (1 + 1e-9) for name, force in sound(self, t, q, v).items()}
+
+    monkeypatch.setattr(FourBar, "reactions", wrong)
+    assert broken(solve(case)) >= {"generated reactions", "reactions by Newton-Euler"}
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("forces that are rounding's alone, balanced to their own digits")
+def test_forces_that_are_none_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(laws, "SMALL", 0.0)
+    found = broken(solve(altered(tmp_path, "dynamometer_smooth")))
+    assert found == {"Newton-Euler balance (2.23), (2.27)"}
 
 
 STATES = """\

@@ -78,7 +78,7 @@ def torques(case: Case, state: int) -> list[Any]:
     drawn = case.states.drawn(case.scene)
     R, g = np.array([vector(e) for e in np.eye(3)], dtype=object), vector(case.scene.gravity)
     omega, alpha, a, parts = vector([0, 0, 0]), vector([0, 0, 0]), -g, []
-    for i, (name, body) in enumerate(case.scene.bodies.items()):
+    for i, body in enumerate(case.scene.bodies.values()):
         phi, rate, change = vector(drawn[f"q{i}.angle"][state])
         u = R.dot(vector(AXES[i]))
         R = R.dot(about(vector(AXES[i]), phi))

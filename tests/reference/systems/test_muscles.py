@@ -27,7 +27,7 @@ def violated(mode: Mode, name: str) -> float:
         found, _ = lagrange.multipliers(mode, t, q, v)
         worst = max(worst, difference(a, found, 1.0))
         worst = max(worst, abs(energy.power_balance(mode, t, q, v)) / force)
-        worst = max(worst, newton_euler.balance(mode, t, q, v, a)[0])
+        worst = max(worst, newton_euler.balance(mode, t, q, v, a).share())
         if (other := voronets.accelerations(mode, t, q, v)) is not None:
             worst = max(worst, difference(a, other, 1.0))
     return worst

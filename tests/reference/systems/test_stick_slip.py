@@ -68,6 +68,7 @@ def test_each_mode_has_its_friction():
     assert changes == {"backward": 1.75, "forward": -0.25, "stuck": 0.0}
 
 
+@pytest.mark.mutant("a block that overshoots held by kinetic friction")
 @pytest.mark.parametrize(("Fs_minus", "sticks"), [(3.0, True), (2.001, True), (1.999, False)])
 def test_what_overshoots_sticks_by_its_static_friction_backward(
     Fs_minus: float, sticks: bool

@@ -65,9 +65,9 @@ def free_cut(mode: Mode) -> float:
     """(2.23), (2.27) and the reaction that they give."""
     worst = 0.0
     for t, q, v in states():
-        left, found = newton_euler.balance(mode, t, q, v, mode.accelerations(t, q, v))
+        found = newton_euler.balance(mode, t, q, v, mode.accelerations(t, q, v))
         own = mode.reactions(t, q, v)["edge.force"]
-        worst = max(worst, left, difference(found["edge.force"], own))
+        worst = max(worst, found.share(), difference(found.reactions["edge.force"], own))
     return worst
 
 

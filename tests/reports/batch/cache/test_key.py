@@ -297,6 +297,7 @@ def test_code_that_changes_meanwhile_is_noticed(code: Path) -> None:
     assert not keys.hold()
 
 
+@pytest.mark.mutant("arrays of two types, or other values, told to be the same")
 @pytest.mark.parametrize(
     ("one", "other"),
     [(1, 1.0), (0.0, -0.0), ("1", 1), ((1, 2), [1, 2]), ({"a": 1, "b": 2}, {"b": 2, "a": 1}),

@@ -145,6 +145,7 @@ def test_so_does_the_file_that_a_variable_names(
     assert word(memo) != before
 
 
+@pytest.mark.mutant("an engine's version that no key has")
 def test_a_version_that_is_no_field_counts(folder: Path, memo: Store) -> None:
     """A plug-in may read it from anywhere, as from a file that nothing names."""
     before, kind = word(memo), type(engine())
