@@ -35,6 +35,9 @@ def find(words: Sequence[str]) -> list[Path]:
     paths: list[Path] = []
     mistakes: list[Mistake] = []
     for word in words:
+        if not word:  # which is also how the folder here is called
+            mistakes.append(Mistake("''", 0, 0, "", "no such case: the name is empty"))
+            continue
         path = known.get(word, Path(word))
         try:
             is_file, is_dir = path.is_file(), path.is_dir()

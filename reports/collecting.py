@@ -13,7 +13,7 @@ from ..cases.mistake import CaseError
 from ..engines.engine import Engine, Plan, Refusal, Start
 from .batch.cache.key import Keys
 from .batch.cache.store import Store
-from .batch.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines
+from .batch.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines, nameable
 from .compare.trial.book import producers
 from .compare.trial.start import assembled
 from .compare.trial.states import ways_of
@@ -99,6 +99,7 @@ def collected(
     """
     with aloud(write):
         countable()
+        nameable(str(path))
         cases = load(path, systems=HANDWRITTEN, engines=ENGINES, long=long)
         engines = choose_engines(names, settings, spare=spare)
         cases = [case for case in cases if not wanted or {case.name, path.stem} & {*wanted}]

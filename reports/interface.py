@@ -6,10 +6,11 @@ What the command would refuse raises `textmech.cases.mistake.CaseError`, with th
 mistakes at once in `mistakes`. What computes is imported by the first call, and not with this.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import inf
+from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 OWN = "own"  # how the column of a user's own options is called
 SMALLEST = 1e-300
 POSES = ("x", "y", "z", "angle")
+MOST = 1024  # processes at once: as the command has it
 Word = str | Path | Case
 
 
@@ -73,7 +75,7 @@ def load(word: Word | Sequence[Word] = ()) -> list[Case]:
     """
     from .batch.selection import choose_cases, told_apart
 
-    words = _words(word)
+    words = _listed("cases", word, (str, Path, Case))
     given = [case for case in words if isinstance(case, Case)]
     named = [str(name) for name in words if not isinstance(name, Case)]
     return told_apart([*given, *(choose_cases(named) if named or not words else [])])
@@ -92,6 +94,8 @@ def solve(word: Word) -> Reference:
     from .show import progress as shown
 
     cases = load(word)
+    if not isinstance(word, str | Path | Case) and not word:
+        raise CaseError([Mistake("cases", 0, 0, "", "none is named; one can be solved")])
     if len(cases) > 1:
         names = ", ".join(case.name for case in cases)
         raise CaseError([Mistake(str(word), 0, 0, "", f"has variants; solve one of: {names}")])
@@ -114,8 +118,8 @@ def solve(word: Word) -> Reference:
 def run(
     word: Word | Sequence[Word] = (),
     *,
-    engines: Sequence[str] = (),
-    settings: Sequence[str] = (),
+    engines: str | Sequence[str] = (),
+    settings: str | Path | Sequence[str | Path] = (),
     options: Mapping[str, Mapping[str, Any]] | None = None,
     causes: bool = False,
     jobs: int | None = None,
@@ -125,7 +129,7 @@ def run(
     """Compares engines with the reference of one case, of several, or of all for none.
 
     engines: as `mujoco`, `mujoco.tuned`, `book`; all for none. settings: `shipped`, `tuned`, or
-    files of own options. options: own ones as a mapping, `{"mujoco": {"integrator": "RK4"}}`, which
+    files of own options; one, or several in a list. options: own ones as a mapping, `{"mujoco": {"integrator": "RK4"}}`, which
     are the setting `own`. causes: whether they are searched for, which takes as long again. cache:
     whether results are kept and found again as the command's are. progress: is told how far it is;
     by default a line on the error stream says so where it takes longer than two seconds.
@@ -145,10 +149,12 @@ def run(
     from .system import pool
 
     found = load(word)
-    own = made(Document(Source("options", (), {}), dict(options or {}), []), OWN)
-    wanted = asked(found, engines, settings, own=list(own.values()))
-    store = usable() if cache else None
     _in_range(jobs=(jobs, 1.0))
+    own = made(Document(Source("options", (), {}), _options(options), []), OWN)
+    names = _listed("engines", engines, (str,))
+    files = [str(file) for file in _listed("settings", settings, (str, Path))]
+    wanted = asked(found, names, files, own=list(own.values()))
+    store = usable() if cache else None
     with _aloud(progress) as told:
         report = suite.measure(
             wanted.cases,
@@ -179,7 +185,7 @@ def run(
 def advise(
     word: Word | Sequence[Word],
     *,
-    engines: Sequence[str] = (),
+    engines: str | Sequence[str] = (),
     tolerance: float | None = None,
     margin: float = 2.0,
     jobs: int | None = None,
@@ -199,7 +205,7 @@ def advise(
     from .batch.request import asked
 
     _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
-    wanted = asked(load(word), engines, ["shipped"])
+    wanted = asked(load(word), _listed("engines", engines, (str,)), ["shipped"])
     bar = Asked(tolerance, margin)
     store = usable() if cache else None
     with (
@@ -213,14 +219,25 @@ def advise(
 
 
 def _in_range(**numbers: tuple[float | None, float]) -> None:
-    """Raises CaseError with every number that is below its least one, or not finite."""
+    """Raises CaseError with every number that is below its least one, not finite, or none."""
     mistakes = [
-        Mistake(name, 0, 0, "", f"should be a number {_from(least)}, is {number!r}")
+        Mistake(name, 0, 0, "", f"should be {_kind(name)} {_from(least)}, is {number!r}")
         for name, (number, least) in numbers.items()
-        if number is not None and not least <= number < inf
+        if number is not None and not _within(name, number, least)
     ]
     if mistakes:
         raise CaseError(mistakes)
+
+
+def _within(name: str, number: object, least: float) -> bool:
+    if isinstance(number, bool) or not isinstance(number, Integral if name == "jobs" else Real):
+        return False
+    most = MOST if name == "jobs" else inf
+    return least <= float(number) and (float(number) < inf and float(number) <= most)
+
+
+def _kind(name: str) -> str:
+    return f"a whole number up to {MOST}," if name == "jobs" else "a number"
 
 
 def _from(least: float) -> str:
@@ -236,8 +253,32 @@ def _aloud(progress: "Progress | None") -> "Iterator[Progress]":
         yield progress or told
 
 
-def _words(word: Word | Sequence[Word]) -> Sequence[Word]:
-    return [word] if isinstance(word, str | Path | Case) else word
+def _listed(name: str, given: Any, kinds: tuple[type, ...]) -> list[Any]:
+    """What was given, or all of it, where each is of these kinds; else raises CaseError."""
+    found = [given] if isinstance(given, kinds) else given
+    if isinstance(found, Iterable) and not isinstance(found, str | bytes | Mapping):
+        found = list(found)
+        if all(isinstance(one, kinds) for one in found):
+            return found
+    known = " or ".join(kind.__name__ for kind in kinds)
+    what = f"should be {known}, or several in a list, is {given!r}"
+    raise CaseError([Mistake(name, 0, 0, "", what)])
+
+
+def _options(options: Any) -> dict[str, Any]:
+    """The mapping of engines to their options, whose names are text; else raises CaseError."""
+    found = {} if options is None else options
+    if not isinstance(found, Mapping) or not all(map(_named, found.items())):
+        what = f'should be as {{"mujoco": {{"integrator": "RK4"}}}}, is {options!r}'
+        raise CaseError([Mistake("options", 0, 0, "", what)])
+    return dict(found)
+
+
+def _named(item: tuple[Any, Any]) -> bool:
+    name, value = item
+    return isinstance(name, str) and (
+        not isinstance(value, Mapping) or all(map(_named, value.items()))
+    )
 
 
 def _motion(case: Case, trajectory: Trajectory) -> "tuple[pd.DataFrame, dict[str, str]]":

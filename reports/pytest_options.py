@@ -8,7 +8,12 @@ import pytest
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    parser.addini("textmech_cases", "case files to compare engines on, as patterns", "args", [])
+    parser.addini(
+        "textmech_cases",
+        "case files to compare engines on, as patterns of a shell (`**`: any folders)",
+        "args",
+        [],
+    )
     parser.addini(
         "textmech_settings", "a file of your own engine options, which have to agree", None, ""
     )

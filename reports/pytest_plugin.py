@@ -77,7 +77,17 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 def _configured(file: Path, config: pytest.Config) -> bool:
     root = glob.escape(str(config.rootpath))  # it is a folder, whatever letters it is called by
     patterns = (os.path.join(root, pattern) for pattern in config.getini("textmech_cases"))
-    return any(fnmatch(str(file), os.path.normpath(pattern)) for pattern in patterns)
+    return any(_fits(file.parts, Path(os.path.normpath(pattern)).parts) for pattern in patterns)
+
+
+def _fits(parts: tuple[str, ...], patterns: tuple[str, ...]) -> bool:
+    """Whether a path is one of a pattern's, as a shell has them: `**` are any folders."""
+    if not patterns:
+        return not parts
+    first, *others = patterns
+    if first == "**":
+        return any(_fits(parts[k:], tuple(others)) for k in range(len(parts) + 1))
+    return bool(parts) and fnmatch(parts[0], first) and _fits(parts[1:], tuple(others))
 
 
 def pytest_itemcollected(item: pytest.Item) -> None:

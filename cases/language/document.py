@@ -25,6 +25,7 @@ from ..mistake import NO_VALUE, CaseError, Mistake, Path, Source, plain
 
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
 AT_HAND = 128  # files whose text is not parsed again: all that are shipped
+BREAK = re.compile("(\r\n|[\n\r])")  # what ends a line of YAML 1.2; kept, at the odd places
 MARK = "\ufeff"  # with which some editors begin a file
 
 
@@ -48,7 +49,7 @@ def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
 @lru_cache(AT_HAND)
 def _parsed(file: str, text: str) -> Document:
     """Parses the text; that is most of what reading costs, and a test session reads twice."""
-    lines = tuple(text.splitlines())
+    lines = tuple(BREAK.split(text)[::2])
     tree = Tree(file, lines)
     try:
         data = tree.document(YAML(typ="safe", pure=True).parse(text))
@@ -69,12 +70,12 @@ def _parsed(file: str, text: str) -> Document:
 
 def _only(text: str, keys: Collection[str]) -> str:
     """Nothing stands on the lines of other keys: places stay what they are."""
-    kept, lines = True, []
-    for line in text.split("\n"):
-        if line[:1].strip(" \t#"):
-            kept = line.partition(":")[0] in keys
-        lines.append(line if kept else "")
-    return "\n".join(lines)
+    kept, parts = True, BREAK.split(text)
+    for k in range(0, len(parts), 2):
+        if parts[k][:1].strip(" \t#"):
+            kept = parts[k].partition(":")[0] in keys
+        parts[k] = parts[k] if kept else ""
+    return "".join(parts)
 
 
 def _text(path: FilePath) -> str:
@@ -104,8 +105,8 @@ def _text(path: FilePath) -> str:
 
 def _end(text: str) -> tuple[int, int]:
     """Line and column, from 1, of what would follow the text."""
-    head, _, last = text.rpartition("\n")
-    return head.count("\n") + 1 + ("\n" in text), len(last) + 1
+    lines = BREAK.split(text)[::2]
+    return len(lines), len(lines[-1]) + 1
 
 
 # Events of YAML → maps, tuples, text, numbers and truth values, and nothing else.

@@ -136,7 +136,7 @@ def _rounded(case: Case) -> dict[str, Trajectory]:
     turns = np.array([unit == "rad" for unit in coordinates(case.scene).values()])
 
     def off(x: Array) -> Array:
-        return EPS * (2.0 * random.integers(0, 2, x.shape) - 1.0)
+        return random.choice([-EPS, EPS], x.shape)
 
     def near(x: Array) -> Array:
         return x * (1.0 + OF_STATE * off(x))

@@ -70,7 +70,7 @@ def sound_cases(
     mistakes: list[Mistake] = []
     for word in words or shipped():
         try:
-            _nameable(word)
+            nameable(word)
             for case in _cases(word, known, long):
                 other = Path(cases.setdefault(case.name, case).source.file)
                 if other.resolve() != Path(case.source.file).resolve():
@@ -118,7 +118,7 @@ def _settings(word: str) -> list[Mistake]:
     return [Mistake(word, 0, 0, "", what)] if ours else []
 
 
-def _nameable(word: str) -> None:
+def nameable(word: str) -> None:
     """A case is called as its file is, and the name stands in tables and on terminals.
 
     Raises CaseError: a spreadsheet computes what begins with =, +, - or @.

@@ -32,13 +32,13 @@ def passing(prefix: str, among: Path | None = None) -> Iterator[Path]:
     among = among or Path(tempfile.gettempdir())
     _sweep(prefix, among)
     folder = Path(tempfile.mkdtemp(prefix=prefix, dir=among))
-    with ending.at_once(lambda: shutil.rmtree(folder, ignore_errors=True)):
+    with ending.at_once(lambda: _away(folder)):
         try:
             with locked(folder / MARK):
                 (folder / MARK).write_text(_mark(folder), encoding="utf-8")
                 yield folder
         finally:
-            shutil.rmtree(folder, ignore_errors=True)
+            _away(folder)
 
 
 def adopt(folder: Path) -> None:
@@ -53,7 +53,19 @@ def _sweep(prefix: str, among: Path) -> None:
     with suppress(OSError):
         for found in list(os.scandir(among)):
             if named.fullmatch(found.name) and _ours(Path(found.path)):
+                _away(Path(found.path))
+
+
+def _away(folder: Path) -> None:
+    """Deletes the folder, its mark last: what is killed meanwhile is still known to be ours."""
+    with suppress(OSError):
+        for found in list(os.scandir(folder)):
+            if found.is_dir(follow_symlinks=False):
                 shutil.rmtree(found.path, ignore_errors=True)
+            elif found.name != MARK:
+                with suppress(OSError):
+                    os.unlink(found.path)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _ours(folder: Path) -> bool:

@@ -184,6 +184,9 @@ def test_no_case_at_all(tmp_path: Path, content: bytes, what: str) -> None:
         ("title: é\nscene: ".encode() + b"\xe9", (2, 8)),
         (b"\xef\xbb\xbftitle: \xff", (1, 8)),
         (b"title: a\r\nscene: \x07", (2, 8)),
+        (b"title: a\rscene: \x07", (2, 8)),
+        (b"title: a\rscene: \xff", (2, 8)),
+        ("title: a\u2028b\nscene: \x07".encode(), (2, 8)),  # of YAML 1.1 alone
         (b"a: 1\n\nb: [\x00]", (3, 5)),
     ],
 )

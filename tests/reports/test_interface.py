@@ -12,7 +12,7 @@ from given.swing import SWING
 
 import textmech.reports
 from textmech.cases.mistake import CaseError
-from textmech.reports import load, run, solve
+from textmech.reports import advise, load, run, solve
 
 Ask = Callable[[], object]
 
@@ -128,6 +128,50 @@ def test_wrong_options_are_named(options: dict, said: str) -> None:
     with pytest.raises(CaseError) as caught:
         run("four_bar", options=options)
     assert str(caught.value).startswith(said)
+
+
+WRONG: dict[str, tuple[Callable[[], object], str]] = {
+    "a number for a case": (lambda: load(5), "cases: should be str or Path or Case, or several"),
+    "no case": (lambda: load(None), "cases: should be str or Path or Case"),
+    "one of several is none": (lambda: run(["four_bar", 3]), "cases: should be str or Path"),
+    "an empty name": (lambda: load(""), "'': no such case: the name is empty"),
+    "nothing to solve": (lambda: solve([]), "cases: none is named; one can be solved"),
+    "options in a list": (lambda: run("four_bar", options=[1]), "options: should be as {"),
+    "an option that is no text": (
+        lambda: run("four_bar", options={"mujoco": {1: 2}}),
+        "options: should be as {",
+    ),
+    "text for a number": (
+        lambda: run("four_bar", jobs="2"),
+        "jobs: should be a whole number up to 1024, from 1 on, is '2'",
+    ),
+    "part of a process": (lambda: run("four_bar", jobs=1.5), "jobs: should be a whole number"),
+    "too many": (lambda: run("four_bar", jobs=1025), "jobs: should be a whole number up to 1024"),
+    "a truth": (lambda: run("four_bar", jobs=True), "jobs: should be a whole number"),
+    "no number": (
+        lambda: advise("four_bar", tolerance="x"),
+        "tolerance: should be a number above 0, is 'x'",
+    ),
+    "a margin of text": (lambda: advise("four_bar", margin="2"), "margin: should be a number from"),
+    "engines by number": (lambda: run("four_bar", engines=3), "engines: should be str, or several"),
+    "bytes": (lambda: run("four_bar", settings=b"tuned"), "settings: should be str or Path"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_of_a_wrong_kind_is_a_mistake_and_no_traceback(name: str) -> None:
+    ask, said = WRONG[name]
+    with pytest.raises(CaseError) as caught:
+        ask()
+    assert str(caught.value).startswith(said)
+
+
+@pytest.mark.slow
+def test_one_engine_and_one_setting_need_no_list(swing: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("mujoco: {integrator: RK4}\n", encoding="utf-8")
+    found = run(swing, engines="mujoco", settings=mine).summary
+    assert list(found.setting) == ["mujoco.shipped", "mujoco.recommended", "mujoco.mine"]
 
 
 def test_a_file_with_mistakes_is_no_run(tmp_path: Path) -> None:

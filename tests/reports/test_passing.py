@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from subprocess import PIPE, Popen
+from typing import Any
 
 import pytest
 from given.trees import digest
@@ -132,6 +133,49 @@ def test_a_copy_of_one_that_was_left_stays(other: tuple[Popen[str], Path], among
     copy = shutil.copytree(folder, among / f"{PREFIX}zzzzzzzz")
     with passing(PREFIX):
         assert copy.is_dir()
+        assert not folder.exists()
+
+
+def test_its_mark_goes_last(among: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is killed while it clears away is still known to be ours, and goes with the next."""
+    cleared, seen = room.shutil.rmtree, list[bool]()
+
+    def watched(path: str | Path, **given: Any) -> None:
+        if Path(path).name == "inside":
+            seen.append((Path(path).parent / room.MARK).exists())
+        cleared(path, **given)
+
+    monkeypatch.setattr(room.shutil, "rmtree", watched)
+    for _ in range(2):
+        with passing(PREFIX) as mine:
+            (mine / "a.csv").write_text("1")
+            (mine / "inside").mkdir()
+            (mine / "led").symlink_to(among)
+        assert not mine.exists()
+    assert seen == [True, True]
+    assert among.is_dir()
+
+
+@pytest.mark.mutant("the mark of a folder that passes deleted with the rest")
+def test_what_is_cut_short_while_it_goes_is_swept(
+    other: tuple[Popen[str], Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    process, folder = other
+    (folder / "deep").mkdir()
+    (folder / "deep" / "rows.csv").write_text("1")
+    process.kill()
+    process.wait()
+    cleared = room.shutil.rmtree
+
+    def struck(path: str | Path, **given: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(room.shutil, "rmtree", struck)
+    with pytest.raises(KeyboardInterrupt), passing(PREFIX):
+        pass
+    monkeypatch.setattr(room.shutil, "rmtree", cleared)
+    assert folder.is_dir()
+    with passing(PREFIX):
         assert not folder.exists()
 
 

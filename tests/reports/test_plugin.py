@@ -153,6 +153,40 @@ def test_cases_are_found_in_a_folder_of_any_name(pattern: str, found: bool, tmp_
     assert _configured(Config.rootpath / "cases" / "swing.yaml", config) is found
 
 
+@pytest.mark.parametrize(
+    ("pattern", "file", "fits"),
+    [
+        ("cases/*.yaml", "cases/a.yaml", True),
+        ("cases/*.yaml", "cases/deep/a.yaml", False),
+        ("cases/**/*.yaml", "cases/deep/er/a.yaml", True),
+        ("cases/**/*.yaml", "cases/a.yaml", True),
+        ("**/a.yaml", "cases/deep/a.yaml", True),
+        ("cases/**", "cases/deep/a.yaml", True),
+        ("*.yaml", "cases/a.yaml", False),
+        ("./cases//[ab].yaml", "cases/b.yaml", True),
+    ],
+)
+def test_a_pattern_is_as_a_shell_has_it(
+    pattern: str, file: str, fits: bool, tmp_path: Path
+) -> None:
+    class Config:
+        rootpath = tmp_path
+
+        def getini(self, name: str) -> list[str]:
+            return [pattern]
+
+    assert _configured(tmp_path / file, cast(pytest.Config, Config())) is fits
+
+
+@pytest.mark.slow
+def test_a_file_whose_name_no_table_can_carry_is_a_mistake(project: pytest.Pytester) -> None:
+    """As for the command: a spreadsheet computes what begins with =."""
+    (project.path / "=swing.yaml").write_text(SWING, encoding="utf-8")
+    done = inner(project, "=swing.yaml")
+    done.assert_outcomes(failed=1)
+    done.stdout.fnmatch_lines(["*file name should begin with a letter*"])
+
+
 @pytest.mark.slow
 def test_two_files_of_one_name_do_not_share_their_rows(project: pytest.Pytester) -> None:
     strict = project.mkdir("strict") / "swing.yaml"

@@ -97,7 +97,7 @@ def test_a_motor_turns_the_second_part_of_its_joint() -> None:
     wheel = disk(name="wheel", mass=1.3, radius=RADIUS, points={})
     scene = machine([wheel], [pin("axle", "ground.O", "wheel.center")], forces=[hand])
     world = build(scene, {"wheel": (0.0,) * 6}, {}, "law")
-    load = motor_load(world, hand, "wheel")(0.5, 1e-3, (0.0,) * 6)
+    load = motor_load(world, hand, "wheel")(0.5, 1e-3, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     assert load == pytest.approx((0.0, 0.0, 0.155))
 
 

@@ -1,5 +1,7 @@
 """The sleigh whose blade is driven: its path by quadrature, and where that is given up."""
 
+from typing import Any
+
 import pytest
 from mpmath import cos, exp, mp, mpf, quad
 
@@ -15,7 +17,8 @@ def angle(system: DrivenEdge, t: float) -> float:
     reach = kappa * system.A / system.Omega
     with mp.workdps(30):
         law = lambda s: exp(-reach * (cos(system.alpha) - cos(system.Omega * s + system.alpha)))  # noqa: E731
-        return float(system.w0 * quad(law, [t * k / 16 for k in range(17)]))
+        turned: Any = quad(law, [t * k / 16 for k in range(17)])
+        return float(system.w0 * turned)
 
 
 @pytest.mark.parametrize("A", [0.8, -0.4, 2.4, 4.0])
