@@ -177,6 +177,17 @@ def test_no_case_at_all(tmp_path: Path, content: bytes, what: str) -> None:
     assert mistakes(tmp_path, content).mistakes[0].what.startswith(what)
 
 
+NEW_BODY = """\
+title: a body that turns
+scene:
+  bodies: {b: {rigid: {mass: 1, inertia: INERTIA}}}
+initial: {b: {x: 0, y: 0, angle: 0}}
+duration: 1
+samples: 11
+allow: {b.x: 1.0e-3}
+"""
+
+
 @pytest.mark.parametrize(
     ("content", "place"),
     [
@@ -195,6 +206,17 @@ def test_what_is_no_text_has_a_place(
 ) -> None:
     (mistake,) = mistakes(tmp_path, content).mistakes
     assert (mistake.line, mistake.column) == place
+
+
+@pytest.mark.parametrize("inertia", ["0", "0.0 kg m^2"])
+def test_what_turns_without_inertia_is_told_to_be_a_particle(tmp_path: Path, inertia: str) -> None:
+    content = NEW_BODY.replace("INERTIA", inertia).encode()
+    (mistake,) = mistakes(tmp_path, content).mistakes
+    assert str(mistake.where) == "scene.bodies.b.rigid.inertia"
+    assert mistake.what.startswith("must be positive, is ")
+    assert mistake.what.endswith(
+        ": what turns without inertia has no equation of its turn; a point mass is a `particle`"
+    )
 
 
 def test_no_file(tmp_path: Path) -> None:
