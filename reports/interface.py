@@ -129,10 +129,11 @@ def run(
     """Compares engines with the reference of one case, of several, or of all for none.
 
     engines: as `mujoco`, `mujoco.tuned`, `book`; all for none. settings: `shipped`, `tuned`, or
-    files of own options; one, or several in a list. options: own ones as a mapping, `{"mujoco": {"integrator": "RK4"}}`, which
-    are the setting `own`. causes: whether they are searched for, which takes as long again. cache:
-    whether results are kept and found again as the command's are. progress: is told how far it is;
-    by default a line on the error stream says so where it takes longer than two seconds.
+    files of own options; of both one, or several in a list. options: own ones as a mapping,
+    `{"mujoco": {"integrator": "RK4"}}`, which are the setting `own`. causes: whether they are
+    searched for, which takes as long again. cache: whether results are kept and found again as the
+    command's are. progress: is told how far it is; by default a line on the error stream says so
+    where it takes longer than two seconds.
 
     Raises CaseError with all mistakes, of the cases and of the rest.
     """
