@@ -218,6 +218,15 @@ def test_a_gap_that_is_compared_with_zero_itself_would_be_seen() -> None:
     assert falls(*taut(1e-17)) != pytest.approx([0.05], abs=4e-3)
 
 
+@pytest.mark.mutant("what decays below 1e-9 of what it was has fallen to zero")
+@pytest.mark.parametrize("share", [0.02, 0.3])
+def test_what_decays_never_falls_to_zero(share: float) -> None:
+    """As a ball that creeps back out of a soft floor: 1e-9 is what anything comes to."""
+    t = grid(2.0)
+    u = (1 - share) ** np.arange(len(t))
+    assert len(falls(t, u, small=1e-9)) == 0
+
+
 def slack(t: Array, u: Array) -> Trajectory:
     found = np.zeros((len(t), 6))
     found[:, X] = u

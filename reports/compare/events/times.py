@@ -28,6 +28,7 @@ CURVE = 4  # steps in the curve that what falls is continued by: as good as an e
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
 SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
 SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
+AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
 TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
@@ -274,19 +275,20 @@ def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tu
 
 
 def falls(times: Array, u: Array, small: float = 0.0) -> Array:
-    """When u (N,) falls to zero, as `_through` says; up to `small` it is zero, as the reference's.
+    """When u (N,) falls to zero, as `_through` says.
 
-    A rope that an exact impact has pulled taut stays so up to rounding, of either sign.
+    Up to `small` it is zero, as the reference's, if it comes there at once: a rope that an exact
+    impact has pulled taut stays so up to rounding, of either sign. What only decays does not.
     An impact may turn u back before any step sees it at zero: then it is the zero of what went
     before, if the line through the last two falling steps has one within the next and u then rises.
     What rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
-    off = u > small
-    turned = (2 * now <= before) & off[1:-2] & off[2:-1] & (then > after)
-    last = (2 * u[-2:-1] <= u[-3:-2]) & off[-2:-1] & off[-1:]  # behind it no step tells
+    turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
+    last = (2 * u[-2:-1] <= u[-3:-2]) & (u[-2:-1] > 0) & (u[-1:] > 0)  # behind it no step tells
     turned = np.append(turned, last)
-    through = off[:-1] & ~off[1:]
+    through = (u[:-1] > 0) & (u[1:] <= 0)
+    through |= (u[:-1] > AT_ONCE * small) & (u[1:] <= small)
     seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
     seen |= {int(i) + 1: _through(times, u, int(i) + 1, int(i)) for i in np.flatnonzero(turned)}
     largest, last = float(np.max(np.abs(u))), 0
