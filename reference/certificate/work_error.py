@@ -42,6 +42,7 @@ FINE = 1e-12  # of all that is done or taken: of a peak that no node meets its f
 NOBODY = 1e-10  # of the smallest tolerance: what no bar would see, a part
 ROUNDING = 1e-14  # of it: what states, powers and their sum are rounded by
 LEAST = 1e-13  # of the motion: a shorter part is left as it is
+JOINED = 4  # steps of eighth order: what the rule does not integrate to the end is halved
 MOST = 2_000  # parts: ten seconds of work
 TICKS = 1000  # ulp of time: what ends sooner has no room for nodes, and no work
 
@@ -133,13 +134,13 @@ def work_errors(
 
 
 def _parts(answer: Answer, times: Array) -> list[_Part]:
-    """The steps of the march, or several as one where they are very many.
+    """Some steps of the march as one, and more where they are very many.
 
     None goes on over a corner or a sample; where these are very many, over some of them.
     """
     march = answer.followed.march
     ends = {*answer.system.corners, *times[:: 1 + 2 * len(times) // MOST].tolist()}
-    many, found, joined = 1 + 2 * len(march) // MOST, list[_Part](), 0
+    many, found, joined = max(JOINED, 1 + 2 * len(march) // MOST), list[_Part](), 0
     for (t, phase, y), (after, other, _) in pairwise(march):
         if phase != other or after - t < TICKS * math.ulp(after):
             continue
