@@ -14,6 +14,8 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake, Source
 from ..cases.scene.difference import apart
@@ -29,6 +31,8 @@ if TYPE_CHECKING:
 OWN = "own"  # how the column of a user's own options is called
 SMALLEST = 1e-300
 POSES = ("x", "y", "z", "angle")
+BY_DEFAULT = ("jobs", "tolerance")  # numbers that may be None
+DEEPEST = 20  # levels of options, as in a file
 MOST = 1024  # processes at once: as the command has it
 Word = str | Path | Case
 
@@ -93,12 +97,14 @@ def solve(word: Word) -> Reference:
     from .compare.judge.instants import of_reference
     from .show import progress as shown
 
-    cases = load(word)
-    if not isinstance(word, str | Path | Case) and not word:
+    words = _listed("cases", word, (str, Path, Case))
+    if not words:
         raise CaseError([Mistake("cases", 0, 0, "", "none is named; one can be solved")])
+    cases = load(words)
     if len(cases) > 1:
         names = ", ".join(case.name for case in cases)
-        raise CaseError([Mistake(str(word), 0, 0, "", f"has variants; solve one of: {names}")])
+        named = ", ".join(str(getattr(one, "name", one)) for one in words)
+        raise CaseError([Mistake(named, 0, 0, "", f"has variants; solve one of: {names}")])
     (case,) = cases
     with shown.aloud():
         solution = solved(case)
@@ -224,7 +230,7 @@ def _in_range(**numbers: tuple[float | None, float]) -> None:
     mistakes = [
         Mistake(name, 0, 0, "", f"should be {_kind(name)} {_from(least)}, is {number!r}")
         for name, (number, least) in numbers.items()
-        if number is not None and not _within(name, number, least)
+        if not (number is None and name in BY_DEFAULT) and not _within(name, number, least)
     ]
     if mistakes:
         raise CaseError(mistakes)
@@ -233,8 +239,11 @@ def _in_range(**numbers: tuple[float | None, float]) -> None:
 def _within(name: str, number: object, least: float) -> bool:
     if isinstance(number, bool) or not isinstance(number, Integral if name == "jobs" else Real):
         return False
-    most = MOST if name == "jobs" else inf
-    return least <= float(number) and (float(number) < inf and float(number) <= most)
+    try:
+        plain = float(number)
+    except OverflowError:
+        return False
+    return least <= plain < inf and not (name == "jobs" and plain > MOST)
 
 
 def _kind(name: str) -> str:
@@ -272,14 +281,24 @@ def _options(options: Any) -> dict[str, Any]:
     if not isinstance(found, Mapping) or not all(map(_named, found.items())):
         what = f'should be as {{"mujoco": {{"integrator": "RK4"}}}}, is {options!r}'
         raise CaseError([Mistake("options", 0, 0, "", what)])
-    return dict(found)
+    return _plain(found)
 
 
-def _named(item: tuple[Any, Any]) -> bool:
+def _named(item: tuple[Any, Any], depth: int = 0) -> bool:
     name, value = item
-    return isinstance(name, str) and (
-        not isinstance(value, Mapping) or all(map(_named, value.items()))
-    )
+    if not isinstance(value, Mapping):
+        return isinstance(name, str)
+    deep = depth < DEEPEST and all(_named(each, depth + 1) for each in value.items())
+    return isinstance(name, str) and deep
+
+
+def _plain(value: Any) -> Any:
+    """As a file has it: of numpy's numbers and arrays Python's."""
+    if isinstance(value, Mapping):
+        return {name: _plain(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
 
 
 def _motion(case: Case, trajectory: Trajectory) -> "tuple[pd.DataFrame, dict[str, str]]":

@@ -6,17 +6,14 @@ lists some. Everything heavy is imported only then.
 
 import glob
 import os
-import shutil
 import sys
-import tempfile
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from fnmatch import fnmatch
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from uuid import uuid4
 
 import pytest
 
@@ -29,6 +26,7 @@ if TYPE_CHECKING:
     from .collecting import Earlier
     from .data.row import Comparison
 
+SUFFIXES = (".yaml", ".yml")
 _REPORT = pytest.StashKey["Report"]()
 _ROWS = pytest.StashKey[dict[tuple[str, ...], "Comparison"]]()
 _EARLIER = pytest.StashKey["Earlier"]()
@@ -59,15 +57,24 @@ def pytest_configure_node(node: Any) -> None:
 
     There they find what one of them has computed where nothing may be remembered for longer.
     """
-    stash = node.config.stash
+    config, stash = node.config, node.config.stash
+    if not config.getini("textmech_cases") and not any(map(_is_case, config.args)):
+        return
     if _FOLDER not in stash:
-        stash[_FOLDER] = Path(tempfile.gettempdir()) / f"textmech-{uuid4().hex}"
-        node.config.add_cleanup(partial(shutil.rmtree, stash[_FOLDER], ignore_errors=True))
+        from .system.temporary_folder import passing
+
+        folder = ExitStack()
+        stash[_FOLDER] = folder.enter_context(passing("textmech-shared-"))
+        config.add_cleanup(folder.close)
     node.workerinput[_SHARED] = str(stash[_FOLDER])
 
 
+def _is_case(argument: str) -> bool:
+    return Path(argument.partition("::")[0]).suffix in SUFFIXES
+
+
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    if file_path.suffix not in (".yaml", ".yml"):
+    if file_path.suffix not in SUFFIXES:
         return None
     if parent.session.isinitpath(file_path) or _configured(file_path, parent.config):
         return CaseFile.from_parent(parent, path=file_path)

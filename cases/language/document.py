@@ -26,6 +26,7 @@ from ..mistake import NO_VALUE, CaseError, Mistake, Path, Source, plain
 LARGEST = 200_000  # bytes, read in 1.5 s; a case has 2000
 AT_HAND = 128  # files whose text is not parsed again: all that are shipped
 BREAK = re.compile("(\r\n|[\n\r])")  # what ends a line of YAML 1.2; kept, at the odd places
+EITHER = re.compile("[\x85\u2028\u2029]")  # ended a line until YAML 1.1
 MARK = "\ufeff"  # with which some editors begin a file
 
 
@@ -50,6 +51,8 @@ def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
 def _parsed(file: str, text: str) -> Document:
     """Parses the text; that is most of what reading costs, and a test session reads twice."""
     lines = tuple(BREAK.split(text)[::2])
+    if either := EITHER.search(text):
+        raise CaseError([_unclear(file, lines, text, either.start())])
     tree = Tree(file, lines)
     try:
         data = tree.document(YAML(typ="safe", pure=True).parse(text))
@@ -66,6 +69,13 @@ def _parsed(file: str, text: str) -> Document:
         raise CaseError(tree.fatal)
     assert isinstance(data, dict)  # anything else is fatal
     return Document(Source(file, lines, tree.places), data, tree.mistakes)
+
+
+def _unclear(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
+    """ruamel counts lines without it, and ends comments with it."""
+    line, column = _end(text[:at])
+    what = f"the character {plain(text[at])} ends a line for some and not for others: leave it out"
+    return Mistake(file, line, column, "", what, lines[line - 1])
 
 
 def _only(text: str, keys: Collection[str]) -> str:

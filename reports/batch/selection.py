@@ -230,8 +230,8 @@ def _known(word: str) -> None:
     name, _, setting = word.partition(".")
     if word == BOOK or name in engines.names():
         return
-    known = [BOOK, *engines.names()]
-    hints = [f"{other}.{setting}" for other in known] if setting else known
+    hints = [f"{other}.{setting}" for other in engines.names()] if setting else engines.names()
+    hints = [BOOK, *hints]  # which has no settings
     raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{nearest(word, hints)}")])
 
 

@@ -8,7 +8,7 @@ import click
 
 from ...cases.mistake import CaseError, Mistake
 from ..show.console import say, tell
-from .done import finished
+from .done import DONE, finished
 from .options import (
     Finite,
     Folder,
@@ -131,6 +131,7 @@ def advise(
             document.write({"advice": told_rows, "exit_code": 0})
     if out is not None:
         write.advice(table, out, overwrite=overwrite)
+        DONE.append(f"the advice is in {out}")
         tell(f"{len(table)} rows written to {out / write.ADVICE}")
 
 

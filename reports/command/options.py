@@ -118,7 +118,10 @@ def as_json(command: Callable[..., None]) -> Callable[..., None]:
         except (CaseError, click.ClickException, OSError) as error:
             if not wants_json or isinstance(error, BrokenPipeError | click.UsageError):
                 raise  # a wrong option is told in words, as where it is none of ours
-            from ..show import document
+            from ..show import console, document
+
+            if console.gone():
+                raise  # it is the output itself: the reason goes where somebody may read it
 
             found = document.mistakes(_mistakes(error))
             document.write({"mistakes": found, "exit_code": BAD_INPUT})

@@ -6,6 +6,7 @@ import click
 
 from ...cases.mistake import CaseError
 from ..show.console import say, tell
+from .done import DONE
 from .looking import looked_at
 from .options import (
     BAD_INPUT,
@@ -75,6 +76,7 @@ def page(
             write_committed(report, report.cases, rows, folder, overwrite=overwrite)
     except (Missing, ValueError) as error:
         raise click.ClickException(str(error)) from None
+    DONE.append(f"the page is {folder / NAME}")
     say(f"written to {folder / NAME}")
     if report.mistakes:
         tell(f"{CaseError(report.mistakes)}\nthese files are left out")

@@ -7,6 +7,7 @@ import click
 
 from ...cases.mistake import CaseError, nearest
 from ..show.console import say
+from .done import DONE
 from .looking import looked_at
 from .options import allow_long, named_engines, overwrite
 
@@ -67,6 +68,7 @@ def plot(
     chosen = _quantity(quantity, report)
     rows = report.comparisons, report.rungs, report.steps
     save(picture(name, chosen, found, *rows), file)
+    DONE.append(f"the picture is {file}")
     say(f"written to {file}: {chosen}")
 
 

@@ -4,15 +4,18 @@ Streams may be closed, or lack letters; text may hold control characters that a 
 Every print first erases the progress line, which stands in the terminal's last line.
 """
 
+import io
 import os
 import sys
 import threading
 from contextlib import suppress
+from typing import Any
 
 import click
 
 KEPT = "\n\t\r"  # control characters that may stand in text
 _STREAM = threading.RLock()  # a thread of its own draws the progress line meanwhile
+_GONE: list[bool] = []  # holds something once the output has failed
 _DRAWN: list[int] = []  # the width of the progress line that stands there; empty: none does
 
 
@@ -23,9 +26,22 @@ def prepare() -> None:
     while (free := os.open(os.devnull, os.O_RDWR)) <= 2:
         pass
     os.close(free)
+    if sys.stdout is not None:
+        sys.stdout = _whole(sys.stdout)
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
             stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+
+
+def _whole(stream: Any) -> Any:
+    """The output so that it takes all of a text or fails; as PYTHONUNBUFFERED has it, it may not.
+
+    What a full disk or a pipe has no room for is dropped there without a word.
+    """
+    if not isinstance(getattr(stream, "buffer", None), io.RawIOBase):
+        return stream
+    encoding = stream.encoding
+    return io.TextIOWrapper(io.BufferedWriter(stream.detach()), encoding, line_buffering=True)
 
 
 def say(text: str = "", *, nl: bool = True) -> None:
@@ -72,6 +88,12 @@ def shown(text: str) -> str:
     return "".join(c if c.isprintable() or c in KEPT else repr(c)[1:-1] for c in text)
 
 
+def gone() -> bool:
+    """Whether the output has failed, so that nobody reads what is said."""
+    return bool(_GONE)
+
+
 def _silence() -> None:
     """Lets the output lead nowhere: the interpreter flushes it at its end, and must not fail."""
+    _GONE[:] = [True]
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

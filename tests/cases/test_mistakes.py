@@ -162,6 +162,8 @@ BILLION = "a: &a [1, 1]\nb: &b [*a, *a]\nc: &c [*b, *b]\nd: [*c, *c]\n"
         (b"title: '\n", "not YAML: "),
         (b'title: "\\U99999999"\n', "not YAML: "),
         (b"a: \x01\n", "the character \\x01 cannot stand in YAML"),
+        ("a: 1 # b\u2029c: 2\n".encode(), "the character \\u2029 ends a line for some"),
+        ("a: b\x85c\n".encode(), "the character \\x85 ends a line for some and not for others"),
         (b"title: \xff\xfe\n", "is not UTF-8 text: here is the byte 0xff"),
         (b"title: x\n---\ntitle: y\n", "a second document"),
         (b"title: " + b"x" * 1_000_000, "is larger than 200 kB"),
@@ -197,7 +199,7 @@ allow: {b.x: 1.0e-3}
         (b"title: a\r\nscene: \x07", (2, 8)),
         (b"title: a\rscene: \x07", (2, 8)),
         (b"title: a\rscene: \xff", (2, 8)),
-        ("title: a\u2028b\nscene: \x07".encode(), (2, 8)),  # of YAML 1.1 alone
+        ("title: a\rb: 1 # c\u2028d: 2\n".encode(), (2, 9)),  # an end of YAML 1.1 alone
         (b"a: 1\n\nb: [\x00]", (3, 5)),
     ],
 )

@@ -44,7 +44,7 @@ def file(tmp_path: Path) -> Path:
         ({"tolerance": inf}, "above 0, is inf"),
         ({"margin": 0.1}, "margin: should be a number from 1 on, is 0.1"),
         ({"margin": nan}, "from 1 on"),
-        ({"jobs": 0}, "jobs: should be a number from 1 on, is 0"),
+        ({"jobs": 0}, "jobs: should be a whole number up to 1024, from 1 on, is 0"),
     ],
 )
 def test_advise_refuses_what_is_no_bar(given: dict[str, Any], said: str, file: Path) -> None:
@@ -53,7 +53,9 @@ def test_advise_refuses_what_is_no_bar(given: dict[str, Any], said: str, file: P
 
 
 def test_a_run_in_no_process_is_refused(file: Path) -> None:
-    with pytest.raises(CaseError, match="jobs: should be a number from 1 on, is -1"):
+    with pytest.raises(
+        CaseError, match="jobs: should be a whole number up to 1024, from 1 on, is -1"
+    ):
         run(str(file), engines=["pymunk.shipped"], jobs=-1)
 
 

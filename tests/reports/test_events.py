@@ -223,7 +223,7 @@ def test_a_gap_that_is_compared_with_zero_itself_would_be_seen() -> None:
 def test_what_decays_never_falls_to_zero(share: float) -> None:
     """As a ball that creeps back out of a soft floor: 1e-9 is what anything comes to."""
     t = grid(2.0)
-    u = (1 - share) ** np.arange(len(t))
+    u = np.power(1 - share, np.arange(len(t), dtype=np.float64))
     assert len(falls(t, u, small=1e-9)) == 0
 
 

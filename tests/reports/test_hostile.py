@@ -121,6 +121,46 @@ def test_a_stream_that_takes_nothing_costs_no_report(script: str, code: int, fol
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("words", ["list", "list --json"])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_an_output_that_is_cut_short_is_told_where_somebody_reads(
+    words: str, unbuffered: str, folder: Path
+) -> None:
+    """A file may have 1 kB: of what is unbuffered Python drops the rest without a word."""
+    script = f"trap '' XFSZ; ulimit -f 1; {sys.executable} -m textmech.reports.cli {words} > said"
+    done = shell(script, folder, PYTHONUNBUFFERED=unbuffered)
+    assert done.returncode == 2
+    assert "File too large" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_document_that_finds_no_room_names_its_reports(unbuffered: str, folder: Path) -> None:
+    done = shell("RUN --json >/dev/full", folder, PYTHONUNBUFFERED=unbuffered)
+    assert done.returncode == 2
+    assert "Error: No space left on device; the reports are in o" in done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "file", "said"),
+    [
+        ("plot cart.yaml -o p.png", "p.png", "the picture is p.png"),
+        ("page cart.yaml --engine mujoco.shipped --out lk", "lk/index.html", "the page is lk/"),
+        ("advise cart.yaml --engine mujoco --out ad", "ad/advice.csv", ""),
+    ],
+)
+def test_what_is_there_is_not_called_unwritten(
+    words: str, file: str, said: str, folder: Path
+) -> None:
+    done = shell(f"{sys.executable} -m textmech.reports.cli {words} >/dev/full", folder)
+    assert (folder / file).exists() == bool(said)
+    assert done.returncode == 2
+    assert (said or "nothing was written") in done.stderr
+
+
+@pytest.mark.slow
 def test_a_stream_without_the_letters_spells_them_out(folder: Path) -> None:
     done = shell("RUN", folder, PYTHONIOENCODING="cp437", PYTHONUTF8="0")
     assert done.returncode == 0, done.stderr

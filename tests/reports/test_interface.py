@@ -2,9 +2,12 @@
 
 import json
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from given.command import NEW
 from given.command import textmech as command
@@ -130,6 +133,8 @@ def test_wrong_options_are_named(options: dict, said: str) -> None:
     assert str(caught.value).startswith(said)
 
 
+LOOP: dict[str, Any] = {}
+LOOP["mujoco"] = LOOP
 WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "a number for a case": (lambda: load(5), "cases: should be str or Path or Case, or several"),
     "no case": (lambda: load(None), "cases: should be str or Path or Case"),
@@ -147,6 +152,14 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "part of a process": (lambda: run("four_bar", jobs=1.5), "jobs: should be a whole number"),
     "too many": (lambda: run("four_bar", jobs=1025), "jobs: should be a whole number up to 1024"),
+    "more than any double": (lambda: run("four_bar", jobs=10**400), "jobs: should be a whole"),
+    "a part of more": (
+        lambda: advise("four_bar", margin=Fraction(10**400)),
+        "margin: should be a number from 1 on",
+    ),
+    "no margin": (lambda: advise("four_bar", margin=None), "margin: should be a number from 1 on"),
+    "options in themselves": (lambda: run("four_bar", options=LOOP), "options: should be as {"),
+    "an empty generator": (lambda: solve(x for x in ()), "cases: none is named"),
     "a truth": (lambda: run("four_bar", jobs=True), "jobs: should be a whole number"),
     "no number": (
         lambda: advise("four_bar", tolerance="x"),
@@ -172,6 +185,17 @@ def test_one_engine_and_one_setting_need_no_list(swing: Path, tmp_path: Path) ->
     mine.write_text("mujoco: {integrator: RK4}\n", encoding="utf-8")
     found = run(swing, engines="mujoco", settings=mine).summary
     assert list(found.setting) == ["mujoco.shipped", "mujoco.recommended", "mujoco.mine"]
+
+
+@pytest.mark.slow
+def test_what_numpy_and_pandas_have_is_taken(swing: Path) -> None:
+    assert solve(np.array([str(swing)])).checks.holds.all()
+    assert [case.name for case in load(pd.Series([str(swing)] * 2))] == ["swing"]
+    with pytest.raises(CaseError, match=r"swing\.yaml, rolling_wheel: has variants; solve one of"):
+        solve(pd.Series([str(swing), "rolling_wheel"]))
+    numbers = {"iterations": np.int64(50), "step": np.float32(1e-3), "solref": np.array([0.02, 1])}
+    found = run(swing, engines="mujoco", options={"mujoco": numbers}).summary
+    assert list(found.setting)[-1] == "mujoco.own"
 
 
 def test_a_file_with_mistakes_is_no_run(tmp_path: Path) -> None:

@@ -1,9 +1,17 @@
 """The plug-in under pytest-xdist: its workers share what one of them has computed."""
 
+import os
+import signal
+import sys
+import tempfile
+import time
 from pathlib import Path
+from subprocess import DEVNULL, Popen
 
 import pytest
 from given.swing import SWING
+
+from textmech.reports.system.temporary_folder import passing
 
 pytest_plugins = ["pytester"]
 
@@ -21,6 +29,37 @@ def counted(function, tasks, executor, beat):
 
 results.spread = counted
 """
+
+
+@pytest.mark.slow
+def test_what_killed_workers_shared_goes_with_the_next_run(
+    pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    pytester.makefile(".yaml", swing=SWING)
+    words = [sys.executable, "-m", "pytest", "swing.yaml", "-n", "2", "--textmech-no-cache"]
+    with Popen(words, cwd=pytester.path, start_new_session=True, stdout=DEVNULL) as process:
+        until = time.monotonic() + 60.0
+        while not (found := [*tmp_path.glob("textmech-shared-*")]) and time.monotonic() < until:
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGKILL)
+    assert found
+    assert found[0].is_dir()
+    with passing("textmech-shared-"):
+        assert not found[0].exists()
+
+
+@pytest.mark.slow
+def test_workers_of_other_projects_make_no_folder(
+    pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    pytester.makepyfile(
+        "import glob, os\n"
+        "def test_own(): assert not glob.glob(os.environ['TMPDIR'] + '/textmech-*')"
+    )
+    pytester.runpytest_subprocess("-n", "2").assert_outcomes(passed=1)
 
 
 @pytest.mark.slow
