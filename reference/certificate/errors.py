@@ -82,13 +82,25 @@ def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
     found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
     size, quantity = worst(np.abs(own).ravel()), case.quantities[name]
     columns = case.scene.frame.alike(quantity.unit)
-    if quantity.kind != "force":
+    if quantity.kind == "force":
+        # One that is none, as the moment about a hinge's own axis, is what the others leave.
+        size = worst([size, *(worst(np.abs(x).ravel()) for x in _beside(case, motion, name))])
+    else:
         # How far places are apart is known as well as they are, which may be far from the origin;
         # and one coordinate of a body on a wire as well as the other.
         mine = motion.states.get(quantity.part)
         states = motion.states.values() if mine is None else [mine]
         size = worst([size, *(worst(np.abs(s[:, columns]).ravel()) for s in states)])
     return worst([EPS * size, *map(worst, found)])
+
+
+def _beside(case: Case, motion: Trajectory, name: str) -> Iterator[Array]:
+    """The reactions of the same part and unit that are told."""
+    known, (part, _, _) = case.quantities, name.rpartition(".")
+    for other, values in motion.reactions.items():
+        alike = other in known and known[other].unit == known[name].unit
+        if alike and other.rpartition(".")[0] == part:
+            yield values
 
 
 def least(case: Case, name: str) -> float | None:

@@ -244,7 +244,7 @@ def unheld(mode: Stated, scene: Scene, rows: Iterator[Row]) -> float:
         at, rates = base.place(poses)
         _, accelerations = base.place({name: tuple(x) for name, x in changes.items()})
         f_a, g, gamma = base.rows(0.0, at, rates)
-        found.append(worst(np.abs(base.f(0.0, at))) / max(1.0, worst(np.abs(at))))
+        found.append(worst(np.abs(base.f(0.0, at))) / max(1.0, _arms(scene), worst(np.abs(at))))
         for held, right in ((rates, g), (accelerations, gamma)):
             size = worst(np.abs(f_a * held).ravel()) or 1.0
             found.append(worst(np.abs(f_a @ held - right)) / size)
@@ -253,20 +253,34 @@ def unheld(mode: Stated, scene: Scene, rows: Iterator[Row]) -> float:
 
 def misread(scene: Scene, found: Trajectory, drawn: dict[str, Array]) -> float:
     """How far coordinates and rates that joints read from the poses are from what was drawn."""
-    motion = Motion(scene.bodies, scene.points, found)
+    near = {  # states are unrelated: no turn is counted from one to the next
+        joint.name: np.stack([drawn[f"{joint.name}.{turn.name}"][:, 0] for turn in joint.turns], 1)
+        for joint in scene.joints.values()
+        if joint.turns
+    }
+    motion = Motion(scene.bodies, scene.points, replace(found, near=near))
     apart: list[float] = []
+    places = [states[:, scene.frame.place] for states in found.states.values()]
+    size = max(_arms(scene), worst(np.abs(x).max() for x in places))  # of which shifts are left
     for joint in scene.joints.values():
-        places, rates = joint.coordinates(motion)
+        read, rates = joint.coordinates(motion)
         for k, freedom in enumerate(joint.freedoms):
             place, rate, _ = drawn[f"{joint.name}.{freedom.name}"].T
             if freedom.kind == "turn" and len(joint.turns) == THREE:
                 continue
             apart.append(relative(rate, rates[:, k], least=1.0))
-            off = place - places[:, k]
+            off, least = place - read[:, k], size
             if freedom.kind == "turn":
-                off = np.remainder(off + np.pi, 2 * np.pi) - np.pi
-            apart.append(worst(np.abs(off)) / max(1.0, worst(np.abs(place))))
+                off, least = np.remainder(off + np.pi, 2 * np.pi) - np.pi, 1.0
+            apart.append(worst(np.abs(off)) / max(1.0, least, worst(np.abs(place))))
     return worst(apart)
+
+
+def _arms(scene: Scene) -> float:
+    """The largest coordinate [m] of a point in its body or on the ground."""
+    points = [point.at for point in scene.points.values()]
+    points += [at for body in scene.bodies.values() for at in body.points.values()]
+    return worst(abs(x) for at in points for x in at)
 
 
 # Free bodies of the plane in x, y and angle: of which states are claimed.

@@ -62,22 +62,28 @@ class SpatialChain(Stated):
 
     @equation
     def _bodies(self, q: Vector, v: Vector) -> dict[str, Moving]:
-        """(2.11), (2.12) Every body's frame in its centre, as the coordinates have it."""
+        """(2.11), (2.12) Every body's frame in its centre, as the coordinates have it.
+
+        From joint to joint it is kept where the body hangs: over a centre that is far from both
+        the way there and back would be rounded.
+        """
         at = {name: (q[i], v[i]) for i, name in enumerate(self.coordinates)}
         still = np.zeros((3, *np.shape(v)[1:]))
-        found = {GROUND: Moving(np.zeros(3), UPRIGHT, still, still)}
+        found = {GROUND: (Moving(np.zeros(3), UPRIGHT, still, still), np.zeros(3))}
         while len(found) <= len(self.scene.bodies):
             for joint in self.scene.joints.values():
                 if joint.a.body in found and joint.b.body not in found:
-                    found[joint.b.body] = self._hung(joint, found[joint.a.body], at)
-        return {name: found[name] for name in self.scene.bodies}
+                    part, hangs = found[joint.a.body]
+                    frame = self._moved(joint, part.at(self._point(joint.a) - hangs), at)
+                    found[joint.b.body] = frame, self._point(joint.b)
+        return {name: found[name][0].at(-found[name][1]) for name in self.scene.bodies}
 
-    def _hung(self, joint: Joint, part: Moving, at: dict[str, tuple[Any, Any]]) -> Moving:
-        frame = part.at(self._point(joint.a))
+    def _moved(self, joint: Joint, frame: Moving, at: dict[str, tuple[Any, Any]]) -> Moving:
+        """By all freedoms of the joint."""
         for freedom in joint.freedoms:
             goes = frame.shifted if freedom.kind == "shift" else frame.turned
             frame = goes(freedom.axis, *at[f"{joint.name}.{freedom.name}"])
-        return frame.at(-self._point(joint.b))
+        return frame
 
     def _point(self, anchor: Anchor) -> Any:
         if anchor.body == GROUND:

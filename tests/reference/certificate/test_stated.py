@@ -147,6 +147,38 @@ allow: {a.x: 1.0e-6, a.y: 1.0e-3}
 """
 
 
+IDLE = """\
+scene:
+  space: 3
+  points: {O: [0, 0, 0], Q: [0.5, 0.1, 0]}
+  bodies:
+    crank: {bar: {mass: 0.5, length: 0.2}}
+    rod:
+      rigid: {mass: 0.7, inertia: [1.0e-4, 5.0e-3, 5.0e-3, 0, 0, 0]}
+      points: {s: [-0.2, 0, 0], e: [0.2, 0, 0]}
+    piston: {block: {mass: 0.4, size: [0.05, 0.05, 0.05]}}
+  joints:
+    q: {hinge: [ground.O, crank.start], axis: [0, 1, 0]}
+    b: {ball: [crank.end, rod.s]}
+    u: {universal: [rod.e, piston.center], axes: [[0, 1, 0], [0, 0, 1]]}
+    g: {slide: [ground.Q, piston.center], along: [1, 0, 0]}
+initial: {q: {angle: 40 deg, omega: 10}}
+near: {g: {shift: 0.05}}
+allow: {q.my: BAR}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a reaction that is none is known to twelve digits of its rounding")
+def test_a_reaction_that_is_none_is_known_to_what_stands_beside_it(tmp_path: Path) -> None:
+    """A hinge along y bears no moment about it: 1e-24 N m are left of the others' 1."""
+    case = typed(tmp_path, IDLE.replace("BAR", "1.0e-3"), tail=tail(0.2, 11))
+    assert error(case, "q.my") > 1e-18
+    bold = typed(tmp_path, IDLE.replace("BAR", "1.0e-30"), tail=tail(0.2, 11))
+    with pytest.raises(CaseError, match="asks more than can be certified"):
+        solve(bold)
+
+
 @pytest.mark.mutant("a place that cancels is known to its own rounding")
 def test_a_sum_is_known_to_its_terms(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """a.x = L (1 − cos q) of L = 10⁶ m is 5.8e-11 m off, and some 1e-6 m."""

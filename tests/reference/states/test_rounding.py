@@ -134,6 +134,69 @@ def test_torques_are_known_as_well_as_is_said(
     assert max(shares) > 1e-3  # nor is it said of anything that it is known to nothing
 
 
+FAR = """\
+title: A bar that hangs where a long frame turns
+source: {equations: ["2.12"]}
+scene:
+  space: 3
+  points: {O: [0.2, 0.7, 0]}
+  bodies:
+    frame:
+      rigid: {mass: 3, inertia: [1, 1, 1, 0, 0, 0]}
+      points: {p: [1.0e+6, 0, 0]}
+    bar: {bar: {mass: 1.3, length: 0.7}}
+  joints:
+    s: {hinge: [ground.O, frame.p], axis: [0, 0, 1]}
+    h: {hinge: [frame.p, bar.start], axis: [0, 0, 1]}
+states: {random: 20, seed: 5, q: [-2.5, 2.5], q_dot: [-1, 1], q_ddot: [-1, 1]}
+allow: {bar.x: 1.0e-12, bar.ax: 1.0e-11}
+"""
+
+
+def test_a_chain_does_not_pass_over_a_far_centre(tmp_path: Path) -> None:
+    """bar.x = 0.2 + 0.35 cos(s + h): over the centre, a million metres off, 5e-11 m are lost."""
+    (tmp_path / "far.yaml").write_text(FAR, encoding="utf-8")
+    (case,) = load(tmp_path / "far.yaml")
+    found = solve(case)
+    assert found.holds
+    assert case.states is not None
+    drawn = case.states.drawn(case.scene)
+    turned = drawn["s.angle"][:, 0] + drawn["h.angle"][:, 0]
+    off = observe(case.scene, found.trajectory, "bar.x") - (0.2 + 0.35 * np.cos(turned))
+    assert np.abs(off).max() < 4e-16
+
+
+FAST = """\
+title: A bar on a hinge, at unrelated states that are fast
+source: {equations: ["2.12"]}
+scene:
+  space: 3
+  points: {O: [0, 0, 0]}
+  bodies: {a: {bar: {mass: 1, length: 1}}}
+  joints: {q: {hinge: [ground.O, a.start], axis: [0, 1, 0]}}
+states: {random: 100, seed: 5, q: [-2.5, 2.5], q_dot: [-2.0e+3, 2.0e+3]}
+allow: {a.x: 1.0e-3}
+"""
+MAP = """\
+title: A cart on the map, 500 km east and 5000 km north
+source: {equations: ["2.12"]}
+scene:
+  space: 3
+  points: {O: [500 km, 5000 km, 120]}
+  bodies: {cart: {block: {mass: 3, size: [1, 1, 1]}}}
+  joints: {s: {slide: [ground.O, cart.center], along: [3, 4, 0]}}
+states: {random: 20, seed: 5, q: [-2.5, 2.5], q_dot: [-1, 1], q_ddot: [-1, 1]}
+allow: {s.shift_force: 1.0e-6}
+"""
+
+
+@pytest.mark.parametrize("text", [FAST, MAP], ids=["turns that nobody counts", "far away"])
+def test_what_is_read_back_is_small_against_what_it_is_read_from(text: str, tmp_path: Path) -> None:
+    (tmp_path / "claim.yaml").write_text(text, encoding="utf-8")
+    (case,) = load(tmp_path / "claim.yaml")
+    assert solve(case).holds
+
+
 @pytest.mark.mutant("how well a torque is known said by its size alone")
 def test_what_is_said_by_a_size_alone_would_be_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
