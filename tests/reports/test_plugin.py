@@ -1,5 +1,6 @@
 """The pytest plug-in, as it behaves in somebody else's project."""
 
+import tomllib
 from pathlib import Path
 from typing import cast
 from xml.etree import ElementTree as ET
@@ -8,6 +9,7 @@ import pytest
 from given.inner import inner
 from given.swing import SWING, swing
 
+from textmech.cases.find import shipped
 from textmech.reports.pytest_plugin import _configured
 
 pytest_plugins = ["pytester"]
@@ -176,6 +178,23 @@ def test_a_pattern_is_as_a_shell_has_it(
             return [pattern]
 
     assert _configured(tmp_path / file, cast(pytest.Config, Config())) is fits
+
+
+def test_every_shipped_file_is_compared_by_our_own_tests() -> None:
+    """Those in a folder of their own too: they would be left out without a word."""
+    root = Path(__file__).parents[2]
+    told = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+
+    class Config:
+        rootpath = root
+
+        def getini(self, name: str) -> list[str]:
+            return [told["tool"]["pytest"]["ini_options"][name]]
+
+    files = {*(root / "cases").rglob("*.yaml")}
+    assert {*shipped().values()} <= files
+    assert {file.parent.name for file in files} == {"cases", "questions"}
+    assert all(_configured(file, cast("pytest.Config", Config())) for file in files)
 
 
 @pytest.mark.slow
