@@ -264,7 +264,7 @@ def _aloud(progress: "Progress | None") -> "Iterator[Progress]":
 
 
 def _listed(name: str, given: Any, kinds: tuple[type, ...]) -> list[Any]:
-    """What was given, or all of it, where each is of these kinds; else raises CaseError."""
+    """Returns what was given as a list, where each is of these kinds; else raises CaseError."""
     found = [given] if isinstance(given, kinds) else given
     if isinstance(found, Iterable) and not isinstance(found, str | bytes | Mapping):
         found = list(found)
@@ -276,7 +276,7 @@ def _listed(name: str, given: Any, kinds: tuple[type, ...]) -> list[Any]:
 
 
 def _options(options: Any) -> dict[str, Any]:
-    """The mapping of engines to their options, whose names are text; else raises CaseError."""
+    """Returns the options of engines by their names, which are text; else raises CaseError."""
     found = {} if options is None else options
     if not isinstance(found, Mapping) or not all(map(_named, found.items())):
         what = f'should be as {{"mujoco": {{"integrator": "RK4"}}}}, is {options!r}'

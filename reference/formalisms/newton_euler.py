@@ -19,15 +19,17 @@ from .wrench import gyroscopic, inertial, none, rows, velocity, wrench
 
 @dataclass(frozen=True)
 class Balance:
-    """What stays unbalanced, and the largest there is: forces [N] or moments [N m]; reactions [N]
-    by quantity."""
+    """Forces [N] or moments [N m]: the largest that stays unbalanced, and the largest there is.
+
+    reactions: by quantity [N], those that leave the least.
+    """
 
     unbalanced: float
     largest: float
     reactions: Mapping[str, float]
 
     def share(self, least: float = 0.0) -> float:
-        """What stays unbalanced, of the largest there is, or of as much [N, N m]."""
+        """Returns the unbalanced part of the largest there is, or of as much [N, N m]."""
         return self.unbalanced / (max(self.largest, least) or 1.0)
 
 

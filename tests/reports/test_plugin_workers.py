@@ -11,7 +11,7 @@ from subprocess import DEVNULL, Popen
 import pytest
 from given.swing import SWING
 
-from textmech.reports.system.temporary_folder import passing
+from textmech.reports.system.temporary_folder import MARK, passing
 
 pytest_plugins = ["pytester"]
 
@@ -31,6 +31,12 @@ results.spread = counted
 """
 
 
+def marked(among: Path) -> list[Path]:
+    """The folders that workers share, once they say whose they are."""
+    marks = among.glob(f"textmech-shared-*/{MARK}")
+    return [mark.parent for mark in marks if mark.stat().st_size]
+
+
 @pytest.mark.slow
 def test_what_killed_workers_shared_goes_with_the_next_run(
     pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
@@ -41,7 +47,7 @@ def test_what_killed_workers_shared_goes_with_the_next_run(
     words = [sys.executable, "-m", "pytest", "swing.yaml", "-n", "2", "--textmech-no-cache"]
     with Popen(words, cwd=pytester.path, start_new_session=True, stdout=DEVNULL) as process:
         until = time.monotonic() + 60.0
-        while not (found := [*tmp_path.glob("textmech-shared-*")]) and time.monotonic() < until:
+        while not (found := marked(tmp_path)) and time.monotonic() < until:
             time.sleep(0.01)
         os.killpg(process.pid, signal.SIGKILL)
     assert found
