@@ -32,8 +32,6 @@ OWN = "own"  # how the column of a user's own options is called
 SMALLEST = 1e-300
 POSES = ("x", "y", "z", "angle")
 BY_DEFAULT = ("jobs", "tolerance")  # numbers that may be None
-DEEPEST = 20  # levels of options, as in a file
-MOST = 1024  # processes at once: as the command has it
 Word = str | Path | Case
 
 
@@ -237,17 +235,21 @@ def _in_range(**numbers: tuple[float | None, float]) -> None:
 
 
 def _within(name: str, number: object, least: float) -> bool:
+    from .command.options import MOST_JOBS
+
     if isinstance(number, bool) or not isinstance(number, Integral if name == "jobs" else Real):
         return False
     try:
         plain = float(number)
     except OverflowError:
         return False
-    return least <= plain < inf and not (name == "jobs" and plain > MOST)
+    return least <= plain < inf and not (name == "jobs" and plain > MOST_JOBS)
 
 
 def _kind(name: str) -> str:
-    return f"a whole number up to {MOST}," if name == "jobs" else "a number"
+    from .command.options import MOST_JOBS
+
+    return f"a whole number up to {MOST_JOBS}," if name == "jobs" else "a number"
 
 
 def _from(least: float) -> str:
@@ -285,6 +287,9 @@ def _options(options: Any) -> dict[str, Any]:
 
 
 def _named(item: tuple[Any, Any], depth: int = 0) -> bool:
+    """Whether all names are text, of options no deeper than a file's may be."""
+    from ..cases.language.document import DEEPEST
+
     name, value = item
     if not isinstance(value, Mapping):
         return isinstance(name, str)

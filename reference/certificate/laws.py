@@ -27,7 +27,7 @@ from .reaction_check import reacting, unexplained
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 DRIFT = 10  # roundings a step: more than that is no drift, but another drive
-SMALL = 1e-3  # of the largest force of a motion: of less, what rounding leaves is more than LAW
+SMALL = 1e-3  # of the largest force of a motion: below ε/LAW = 2e-4 of it its ulp alone is LAW
 SOME = 8  # samples: a force that is zero at one of them is none at the others
 BESIDE = 1  # state of a mode beside its motion; the tests draw a hundred
 OF_MULTIPLIERS = 0.1  # of what reduced equations lose: masses are not multiplied with each other

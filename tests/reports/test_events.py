@@ -12,6 +12,7 @@ from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.passages import passages
 from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reports.compare.events import rests as reading
+from textmech.reports.compare.events import times as event_times
 from textmech.reports.compare.events.rests import rests
 from textmech.reports.compare.events.times import engine_events, falls, reference_events
 
@@ -220,11 +221,13 @@ def test_a_gap_that_is_compared_with_zero_itself_would_be_seen() -> None:
 
 @pytest.mark.mutant("what decays below 1e-9 of what it was has fallen to zero")
 @pytest.mark.parametrize("share", [0.02, 0.3])
-def test_what_decays_never_falls_to_zero(share: float) -> None:
+def test_what_decays_never_falls_to_zero(share: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """As a ball that creeps back out of a soft floor: 1e-9 is what anything comes to."""
     t = grid(2.0)
     u = np.power(1 - share, np.arange(len(t), dtype=np.float64))
     assert len(falls(t, u, small=1e-9)) == 0
+    monkeypatch.setattr(event_times, "AT_ONCE", 1.0)
+    assert len(falls(t, u, small=1e-9)) == 1
 
 
 def slack(t: Array, u: Array) -> Trajectory:
