@@ -118,7 +118,7 @@ def test_a_pipe_is_no_link_that_leads_nowhere(file: Path) -> None:
     command = [sys.executable, "-c", code, "check", "/dev/stdin"]
     done = subprocess.run(command, input=file.read_bytes(), capture_output=True, check=False)
     assert done.returncode == 2
-    assert done.stderr.decode().splitlines()[0] == "/dev/stdin: is no file"
+    assert "/dev/stdin: is no file" in done.stderr.decode().splitlines()
 
 
 @pytest.mark.parametrize(

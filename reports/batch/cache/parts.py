@@ -27,6 +27,9 @@ OURS, BASIS = "textmech", ("numpy", "scipy")  # whose digests are in every key
 MANY = 1000  # files beside a module that is alone in its folder: more are nobody's adapter
 LONGEST = 200  # letters of a file's name in code
 INSTALLED = ("site-packages", "dist-packages")
+WINDOWS = {"MUJOCO_GL", "glfw"}
+"""With what engines show pictures. None of our runs does, and only the command forbids it: what it
+has computed would be computed again by pytest."""
 _QUOTED = re.compile(rb"[\"']([^\"'\n\\]+)[\"']")
 _REQUIRED = re.compile(r"[\w.-]+")
 _FIELD = {
@@ -44,6 +47,7 @@ class Parts:
     words: set[str] = field(default_factory=set)
     variables: set[str] = field(default_factory=set)
     _names: set[str] = field(default_factory=set)
+    _asked: list[Distribution] = field(default_factory=list)
     _distributions: set[str] = field(default_factory=set)
 
     @staticmethod
@@ -55,10 +59,14 @@ class Parts:
         for name in () if _is_ours(home) else _loaded(type(engine).__module__.partition(".")[0]):
             parts._module(name)
         if (provided := engines.distribution(engine.name)) is not None:
-            parts._distribution(provided, every=True)
+            parts._names |= {_module_of(top) for top in _tops(provided)}
+            parts._asked.append(provided)
+        held = _reached(parts._names)
+        for found in parts._asked:
+            parts._distribution(found, held)
         prefix = f"{engine.name.upper()}_"
         named = {name for name in os.environ if name in parts.variables or name.startswith(prefix)}
-        for name in sorted(named):
+        for name in sorted(named - WINDOWS):
             parts.words.add(f"{name}={os.environ[name]}")
             with suppress(OSError, ValueError):
                 if (file := Path(os.environ[name])).is_file():
@@ -103,17 +111,18 @@ class Parts:
             return
         self._names.add(name)
         with suppress(PackageNotFoundError, ValueError):
-            self._distribution(distribution(name))
+            self._asked.append(distribution(name))
             for path in located(name):
                 self._told(Place(path, code=True, tests=False))
             return
         for path in located(name):
             self._place(path)
 
-    def _distribution(self, found: Distribution, *, every: bool = False) -> None:
+    def _distribution(self, found: Distribution, held: set[str]) -> None:
         """Its files where they lie, its modules where they are loaded from, what it requires.
 
-        every: whether modules count that nothing has loaded.
+        held: by the engine's code. What others have loaded into the process is none of it: pytest
+        has more there than the command.
         """
         told = (found.read_text("METADATA") or found.read_text("PKG-INFO") or "").partition("\n\n")[
             0
@@ -125,16 +134,15 @@ class Parts:
         self._distributions.add(known)
         self.words.add(f"{known} {version}")
         for top in sorted(_tops(found)):
-            module = top.partition(".")[0]
             if top.endswith(".libs"):
                 self._told(Place(Path(str(found.locate_file(top)))))
-            elif module in sys.modules or every:
-                for path in located(module):
+            elif _module_of(top) in held:
+                for path in located(_module_of(top)):
                     self._told(Place(path, code=True, tests=False))
         for needed in _FIELD["Requires-Dist"].findall(told):
             if "extra ==" not in needed and (match := _REQUIRED.match(needed)):
                 with suppress(PackageNotFoundError):
-                    self._distribution(distribution(match[0]))
+                    self._distribution(distribution(match[0]), held)
 
 
 def _tops(found: Distribution) -> set[str]:
@@ -143,6 +151,10 @@ def _tops(found: Distribution) -> set[str]:
     names = listed.splitlines() if listed else map(str, found.files or ())
     tops = {name.partition(",")[0].partition("/")[0] for name in names}
     return {top for top in tops if top not in ("", "..", COMPILED) and not top.endswith("-info")}
+
+
+def _module_of(top: str) -> str:
+    return top.partition(".")[0]
 
 
 def home_of(kind: type) -> Path:
@@ -164,6 +176,15 @@ def _loaded(package: str) -> set[str]:
         t.__name__ if isinstance(t, ModuleType) else getattr(t, "__module__", "") for t in held
     ]
     return {name.partition(".")[0] for name in names if isinstance(name, str)} - {"", package}
+
+
+def _reached(packages: set[str]) -> set[str]:
+    """The packages, what those that are loaded hold, and what these hold in turn."""
+    found, left = set[str](), set(packages)
+    while left:
+        found.add(name := left.pop())
+        left |= _loaded(name) - found - sys.stdlib_module_names - {OURS, *BASIS} - WINDOWS
+    return found
 
 
 def located(name: str) -> list[Path]:

@@ -3,6 +3,7 @@
 import math
 import os
 import shutil
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable
@@ -270,6 +271,48 @@ def test_another_machine_has_other_keys(monkeypatch: pytest.MonkeyPatch) -> None
     before = words()
     monkeypatch.setattr(key, "machine", lambda: "another")
     assert not set(words()) & set(before)
+
+
+OF_A_PROCESS = """\
+import sys
+from pathlib import Path
+from textmech.cases.find import shipped
+from textmech.cases.load import load
+from textmech.engines import make
+from textmech.reports.batch.cache import key, parts
+from textmech.reports.batch.cache.store import Store
+{before}
+key.BEGUN = float("inf")
+(case,) = load(shipped()["bar_pendulum"])
+keys = key.Keys.now(Store(Path(sys.argv[1])))
+print(keys.ways(case, make("{engine}", "shipped")))
+"""
+
+
+def of_a_process(folder: Path, engine: str, before: str, **variables: str) -> str:
+    """The key of an engine's ways in a process of its own."""
+    others = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
+    code = OF_A_PROCESS.format(before=before, engine=engine)
+    return subprocess.run(
+        [sys.executable, "-c", code, str(folder)],
+        env=others | variables, check=True, capture_output=True, text=True,
+    ).stdout  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("what shows pictures in the key: pytest computes anew what the command has")
+@pytest.mark.mutant("modules in the key that others have loaded")
+@pytest.mark.parametrize("engine", ["mujoco", "pymunk"])
+def test_a_process_that_could_show_pictures_has_the_same_keys(engine: str, tmp_path: Path) -> None:
+    """As pytest, beside a command that forbids MuJoCo's windows: with glfw come cffi and more."""
+    command = of_a_process(tmp_path, engine, "import mujoco, pymunk", MUJOCO_GL="off")
+    other = "import cffi, glfw, mujoco, pycparser, pymunk"
+    assert of_a_process(tmp_path, engine, other) == command
+    if engine == "mujoco":
+        planted = f"{other}; parts.WINDOWS.clear()"
+        assert of_a_process(tmp_path, engine, planted) != command
+    planted = f"{other}; parts._reached = lambda names: set(sys.modules) | names"
+    assert of_a_process(tmp_path, engine, planted) != command
 
 
 @pytest.mark.slow
