@@ -90,11 +90,22 @@ class Scale:
 
     def idle(self, mode: Mode, t: float, q: Array, n: int) -> Array:
         """(n,) how fast each rate is with which no body is faster than in the whole motion."""
-        still = self.base.where.velocities(mode.poses(t, q, np.zeros(n)))
-        ways = [self.base.where.velocities(mode.poses(t, q, e)) - still for e in np.eye(n)]
         with np.errstate(divide="ignore"):
-            found = np.min(self.speeds / np.abs(ways), axis=1)
+            found = np.min(self.speeds / self._of_each(mode, t, q, n), axis=1)
         return np.where(np.isfinite(found), found, 1.0)
+
+    def turned(self, mode: Mode, t: float, q: Array, n: int) -> Array:
+        """(n,) how far each coordinate alone goes until a body of space turns by 45°."""
+        if not isinstance(self.base, SpatialMultibody):
+            return np.full(n, math.inf)
+        turns = self._of_each(mode, t, q, n)[:, self.base.where.turning]
+        with np.errstate(divide="ignore"):
+            return math.pi / 4 / np.max(turns, axis=1, initial=0.0)
+
+    def _of_each(self, mode: Mode, t: float, q: Array, n: int) -> Array:
+        """(n, ·) how fast the bodies are by each rate of 1 alone."""
+        still = self.base.where.velocities(mode.poses(t, q, np.zeros(n)))
+        return np.abs([self.base.where.velocities(mode.poses(t, q, e)) - still for e in np.eye(n)])
 
     def assembled(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
         """Whether no body of space turns so far from q that axes which a joint holds may flip.
@@ -287,16 +298,19 @@ def drawn(
 ) -> Iterator[tuple[float, Array, Array]]:
     """t, q (m,), v (n,): as many as asked for, beside samples y (N, ·) of a motion in this mode.
 
-    What never moves in the motion moves as the scale says, or 1 without one.
+    What never moves in the motion moves as the scale says, or 1 without one. A rotor's own turns
+    keep no other coordinate near: each goes as far as it may by itself.
     """
     random = np.random.default_rng(SEED)
     states = [mode.parted(row) for row in y]
     fastest = np.max(np.abs([v for _, v in states]), axis=0, initial=0.0)
+    first = float(times[0]), states[0][0], len(fastest)
     if not np.all(fastest > 0.0):
-        first = states[0][0]
-        idle = scale.idle(mode, float(times[0]), first, len(fastest)) if scale else 1.0
+        idle = scale.idle(mode, *first) if scale else 1.0
         fastest = np.where(fastest > 0.0, fastest, idle)
     way = FAR * (float(times[-1] - times[0]) or 1.0) * fastest
+    if scale:
+        way = np.minimum(way, scale.turned(mode, *first))
     for _ in range(count):
         at = int(random.integers(len(times)))
         t, (q, v) = float(times[at]), states[at]

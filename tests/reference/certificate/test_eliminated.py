@@ -35,6 +35,9 @@ class Unit(laws.Scale):
     def idle(self, mode: Mode, t: float, q: Array, n: int) -> Array:
         return np.ones(n)
 
+    def turned(self, mode: Mode, t: float, q: Array, n: int) -> Array:
+        return np.full(n, np.inf)
+
     def assembled(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
         return True
 

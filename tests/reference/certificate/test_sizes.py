@@ -4,7 +4,7 @@ A sum that cancels has no size of its own: a certificate that divides by it FAIL
 Each scene stands beside a planted mistake, which is seen as before.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -168,6 +168,49 @@ def test_a_hinge_that_is_turned_over_is_seen(
 ) -> None:
     monkeypatch.setattr(laws.Scale, "assembled", lambda *given: True)
     assert "accelerations by Voronets (2.66)" in drawn(tmp_path, "fan")
+
+
+ROTOR = """\
+scene:
+  space: 3
+  gravity: none
+  points: {O: [0, 0, 0]}
+  bodies:
+    sled: {rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.04, 0, 0, 0]}}
+    fan: {rigid: {mass: 0.3, inertia: [2.0e-3, 3.0e-3, 4.0e-3, 0, 0, 0]}}
+  joints:
+    rail: {slide: [ground.O, sled.center], along: [1, 0, 0]}
+    spin: {hinge: [sled.center, fan.center], axis: [0, 0, 1]}
+initial: {rail: {shift: 0, shift_dot: 10}, spin: {angle: 0, omega: 1.0e+4}}
+allow: {sled.x: 1.0e-3}
+"""
+
+
+def slid(folder: Path, monkeypatch: pytest.MonkeyPatch) -> float:
+    """How far a sled of a motion over 1 m is drawn beside itself [m]."""
+    sound, found = laws.drawn, []
+
+    def kept(mode: Any, times: Array, y: Array, *given: Any) -> Iterator[Any]:
+        for t, q, v in sound(mode, times, y, *given):
+            here = mode.poses(t, *mode.parted(y[int(np.argmin(abs(times - t)))]))
+            found.append(abs(mode.poses(t, q, v)["sled"][0] - here["sled"][0]))
+            yield t, q, v
+
+    monkeypatch.setattr(laws, "drawn", kept)
+    solve(scenes.typed(folder, ROTOR, tail=scenes.tail(0.1, 11)))
+    (way,) = found
+    return float(way)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("what moves slowly is drawn beside itself, by a fast rotor's turns")
+def test_a_fast_rotor_keeps_nothing_else_near(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patch:
+        assert slid(tmp_path, patch) > 0.02
+    monkeypatch.setattr(laws.Scale, "turned", lambda self, mode, t, q, n: np.full(n, np.inf))
+    assert slid(tmp_path, monkeypatch) < 1e-3
 
 
 # Systems whose own equations divide by next to nothing, or whose forces are rounding's.
