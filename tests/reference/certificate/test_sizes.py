@@ -166,6 +166,8 @@ def test_a_rate_of_another_unit_is_seen(tmp_path: Path, monkeypatch: pytest.Monk
 def test_a_hinge_that_is_turned_over_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(laws.Scale, "turned", lambda self, mode, t, q, n: np.full(n, np.inf))
+    assert not drawn(tmp_path, "fan")
     monkeypatch.setattr(laws.Scale, "assembled", lambda *given: True)
     assert "accelerations by Voronets (2.66)" in drawn(tmp_path, "fan")
 
