@@ -169,9 +169,8 @@ def _explain(
         if one.realised == "native"
         for name, words in one.outcome.moments.items()
     }
-    report.causes = found_causes(
-        report.comparisons, report.steps, pairs, results, search=search, known=known
-    )
+    found = report.comparisons, report.steps, report.rungs
+    report.causes = found_causes(*found, pairs, results, search=search, known=known)
     report.comparisons = with_causes(report.comparisons, report.causes, moments)
 
 

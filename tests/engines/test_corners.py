@@ -7,8 +7,10 @@ from given.planning import TUNED, every, moved
 from textmech.cases.scene import Anchor, GroundPoint, Push, Scene, Signal
 from textmech.cases.scene.joint import planar_joint
 from textmech.cases.scene.shape import disk, particle
-from textmech.engines import signal
+from textmech.engines import make, signal
+from textmech.engines.engine import Engine
 from textmech.engines.mujoco.callbacks.signal import Corners
+from textmech.engines.pymunk.read import samples
 
 M, F = 1.5, 6.0
 TIMES = np.linspace(0.0, 1.0, 11)
@@ -86,6 +88,37 @@ def test_a_stage_at_the_end_of_a_step_that_knows_the_jump_is_seen(
     )
     monkeypatch.setattr(Corners, "_touched", after)
     assert off("mujoco", ON_STEPS[law]) == pytest.approx(F * 1e-3 / 6 / M, rel=1e-6)
+
+
+def pressed(setting: Engine, at: float) -> float:
+    """How far [N] a rail's force is at worst from what acts after a push across it has begun."""
+    law = Signal("step", (0.0, -F), times=(at,))
+    times = np.array([0.0, 0.499, 0.5, 0.501, 0.6])
+    found = moved(
+        setting, scene(law), {"cart": (0.0,) * 6}, times, 1e-3, reactions=("rail.force",)
+    ).reactions["rail.force"]
+    return float(np.max(np.abs(np.abs(found) - F * (times >= at))))
+
+
+@pytest.mark.mutant("the force at a sample is the mean of what acts before and after its jump")
+@pytest.mark.parametrize("at", [0.5, 0.4996, 0.5004])
+def test_a_force_at_a_corner_is_what_acts_after_it(
+    at: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ENGINES:
+        assert pressed(TUNED[name], at) < 1e-9
+    weights = samples._weights
+    monkeypatch.setattr(samples, "_weights", lambda n, mid, corners: weights(n, mid, corners[:0]))
+    assert pressed(TUNED["pymunk"], at) > 0.1 * F
+
+
+@pytest.mark.mutant("the force at a sample is what led to its jump")
+def test_a_force_as_shipped_is_what_acts_after_a_corner(monkeypatch: pytest.MonkeyPatch) -> None:
+    shipped = make("pymunk", "shipped")
+    assert pressed(shipped, 0.5) < 1e-9
+    weights = samples._weights
+    monkeypatch.setattr(samples, "_weights", lambda n, mid, corners: weights(n, mid, corners[:0]))
+    assert pressed(shipped, 0.5) == pytest.approx(F)
 
 
 RATES = Signal("table", (2.0,), times=(0.3, 0.501, 0.7), values=(0.0, 1.0, -0.4))

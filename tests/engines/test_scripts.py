@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import get_args
 from xml.etree import ElementTree as ET
 
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 from given import engine_scenes as given
 from given.planning import NATIVE, SETTINGS, TUNED, begun, moved, pair, planned, words
-from given.scenes import SHIPPED
+from given.scenes import SHIPPED, typed
 
 from textmech.cases.fields.signal import Law, Signal
 from textmech.cases.scene import Scene
@@ -24,8 +25,7 @@ from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.rotation import matrix
 from textmech.cases.scene.shape import bar
 from textmech.engines.engine import Engine, Start
-from textmech.engines.mujoco.callbacks.signal import Corners, following, installed, together
-from textmech.engines.mujoco.model.drive import controls
+from textmech.engines.mujoco.callbacks.signal import installed
 from textmech.engines.mujoco.model.force import BY_ITSELF
 from textmech.engines.mujoco.model.script import told
 from textmech.reports.compare.trial.start import assembled
@@ -47,25 +47,9 @@ def stepped(text: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     return model, data
 
 
-def with_means(text: str, scene: Scene) -> mujoco.MjData:
-    """The file after 1 s: a callback cannot know in which step a law has a corner."""
-    model = mujoco.MjModel.from_xml_string(text)
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
-    laws = controls(scene)
-    corners = Corners(laws, model.opt.timestep)
-    with together([following(laws, corners)]):
-        corners.held(lambda n: mujoco.mj_step(model, data, n))(round(1.0 / model.opt.timestep))
-    mujoco.mj_kinematics(model, data)
-    return data
-
-
 def by_mujoco(text: str, scene: Scene) -> dict[str, list[float]]:
-    """The places after 1 s of the MJCF file; with our means of what jumps or bends."""
-    if any(law.corners for law in scene.laws()):
-        data = with_means(text, scene)
-    else:
-        _, data = stepped(text)
+    """The places after 1 s of the MJCF file."""
+    _, data = stepped(text)
     size = scene.frame.dimension
     return {name: data.body(name).xipos[:size].tolist() for name in scene.bodies}
 
@@ -185,10 +169,50 @@ def pasted(law: Signal, times: list[float]) -> list[float]:
 
 @pytest.mark.parametrize("name", LAWS)
 def test_a_script_says_each_law_in_time(name: str) -> None:
-    """Before and after each corner and on it, and outside of all."""
-    times = [0.0, 0.1, 0.15, 0.2, 0.3, 0.4, 0.69, 0.7, 0.75, 0.8, 2.0]
-    known = LAWS[name].at(np.array(times))[:, 0]
-    np.testing.assert_allclose(pasted(LAWS[name], times), known, rtol=0, atol=1e-14)
+    """Before and after each corner, and outside of all; in a step with one its mean."""
+    law, h = LAWS[name], 0.002  # s: MuJoCo's own
+    smooth = [0.0, 0.15, 0.3, 0.69, 0.75, 2.0]
+    known = law.at(np.array(smooth))[:, 0]
+    np.testing.assert_allclose(pasted(law, smooth), known, rtol=0, atol=1e-14)
+    if law.corners:
+        edges = [corner - part * h for corner in law.corners for part in (0.8, 0.55)]
+        middles = h / 1000 * (np.arange(1000) + 0.5)
+        means = [np.mean(law.at(begin + middles)[:, 0]) for begin in edges]
+        np.testing.assert_allclose(pasted(law, edges), means, rtol=0, atol=1e-8)
+
+
+JUMPY = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {cart: {block: {mass: 1.0, width: 0.2, height: 0.1}}}
+  joints: {rail: {slide: [ground.O, cart.center], along: [1, 0]}}
+  forces:
+    hand: {push: cart.center, step: {amplitude: [1.0, 0], at: 0.3}}
+    foot: {push: cart.center, pulse: {amplitude: [3.0, 0], from: 0.4003, until: 0.6}}
+    wind: {push: cart.center, table: {along: [1, 0], times: [0.1, 0.5, 0.7006], values: [0, 2, 1]}}
+initial: {cart: {x: 0, vx: 1.0}}
+allow: {cart.vx: 1.0e-5}
+"""
+
+
+def jumped(folder: Path, spoil: Callable[[str], str] = str) -> float:
+    """How far the speed of the pasted model is off the textbook's after 1 s [m/s]."""
+    case, engine = typed(folder, JUMPY), TUNED["mujoco"]
+    start = assembled(case)
+    text = engine.script(case.scene, start, STEP, planned(engine, case.scene, start))
+    _, data = stepped(spoil(text))
+    # 1 N · 0.7 s, 3 N · 0.1997 s, and under the table 0.4 · 1, 0.2006 · 1.5, 0.2994 · 1 N s.
+    return abs(float(data.qvel[0]) - 1.0 - 0.7 - 0.5991 - 0.4 - 0.3009 - 0.2994)
+
+
+@pytest.mark.mutant("a pasted law that jumps, weighed by RK4's stages")
+@pytest.mark.mutant("a pasted law that jumps, whose step begins where each stage is")
+def test_a_pasted_law_that_jumps_gives_what_the_run_does(tmp_path: Path) -> None:
+    assert jumped(tmp_path) < 1e-13
+    bare = "1.0 if t >= 0.3 else 0.0  #"
+    weighed = jumped(tmp_path, lambda text: re.sub(r"min\(1.0, .*- 0.3\) / h\)\)  #", bare, text))
+    assert weighed == pytest.approx(STEP / 6, rel=1e-6)
+    assert jumped(tmp_path, lambda text: text.replace("begin_of_step(t, h)\n  ", "t\n  ")) > 1e-5
 
 
 @pytest.mark.mutant("a pasted callback that steps other models too")

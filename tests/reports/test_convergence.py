@@ -211,8 +211,8 @@ def test_what_stays_beside_an_event_is_not_the_steps() -> None:
     assert found.verdict == TEXTBOOK
     told = cause(found, simplified="one number for friction: pin")
     assert told == (
-        "beside an event no smaller step helps: 0.28 to 0.28 on every rung; elsewhere the error "
-        "falls with order 2.0; one number for friction: pin"
+        "beside an event no step down to h = 0.001 s helps: 0.28 to 0.28 on every rung; elsewhere "
+        "the error falls with order 2.0; one number for friction: pin"
     )
     assert "one number" not in cause(replace(found, usable_step=1e-3), simplified="one number")
 
@@ -240,6 +240,35 @@ def test_what_falls_more_slowly_than_declared_has_no_limit_yet(
     assert found.limit < 2 * found.uncertainty
     monkeypatch.setattr(convergence, "_left", lambda *_: 0.0)
     assert judge(rungs, p=4, allow=1e-5).verdict == ANOTHER
+
+
+@pytest.mark.mutant("what all coarse rungs damp away is the engine's model")
+@pytest.mark.parametrize("finest", [0.328, 0.02])
+def test_a_ladder_that_only_begins_to_resolve_blames_no_model(
+    finest: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a free body's nutation in an implicit integrator: the finer ones fall with order 1."""
+    sizes = [finest, 0.361, 0.369, 0.372, 0.367]
+    rungs = {h: REFERENCE + size * T for h, size in zip(STEPS, sizes, strict=True)}
+    found = judge(rungs, p=1, allow=1e-2)
+    assert found.verdict not in (TEXTBOOK, WITHIN, ANOTHER)
+    if finest > 0.1:
+        assert found.uncertainty == found.limit
+        monkeypatch.setattr(convergence, "_grown", lambda *_: 0.0)
+        assert judge(rungs, p=1, allow=1e-2).verdict == ANOTHER
+
+
+def test_noise_beside_a_model_is_no_growth() -> None:
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        noise = 1e-6 * rng.standard_normal((len(STEPS), len(T)))
+        rungs = {h: REFERENCE + 3e-3 * T + each for h, each in zip(STEPS, noise, strict=True)}
+        assert judge(rungs, p=1, allow=1e-3).verdict == ANOTHER
+
+
+def test_what_stays_is_said_of_the_steps_that_were_tried() -> None:
+    told = cause(judge(turning(1.0, 1.4, 0.9, 1.5, 1.1), p=1))
+    assert told == "no step down to h = 0.001 s helps: 0.9 to 1.5 on every rung"
 
 
 def test_a_model_is_told_behind_an_event_too() -> None:

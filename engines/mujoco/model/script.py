@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Sequence
+from inspect import getsource
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -11,6 +12,7 @@ import numpy as np
 from ....cases.fields.signal import Signal
 from ....cases.scene import CENTER, Scene
 from ...engine import Start
+from ...signal import NEAR, under
 from .force import BY_ITSELF
 from .number_text import written
 from .tree import called
@@ -21,7 +23,22 @@ _SAID = (
     "steps it would be held); while one is set MuJoCo loads no model, and "
     "mujoco.set_mjcb_control(None) takes it away"
 )
-_CORNERS = "where a law jumps or bends our run holds its mean over that step, which is of 2nd order"
+_CORNERS = (
+    "in a step in which a law jumps or bends its mean is held, as in our run, which is of 2nd "
+    "order: else RK4's stages would weigh it by where they lie"
+)
+# MuJoCo tells no callback where a step begins: RK4 asks there, twice in its middle, at its end.
+_BEGINS = """\
+asked = {"begin": -1.0, "middle": False}
+
+
+def begin_of_step(t, h):
+    passed = (t - asked["begin"]) / h
+    if not (abs(passed - 0.5) < 0.1 or (asked["middle"] and abs(passed - 1.0) < 0.1)):
+        asked["begin"], passed = t, 0.0
+    asked["middle"] = abs(passed - 0.5) < 0.1
+    return asked["begin"]
+"""
 
 
 def commented(head: Iterable[str]) -> str:
@@ -31,33 +48,50 @@ def commented(head: Iterable[str]) -> str:
 
 def told(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
     """Python in a comment that sets the controls which do not follow by themselves; or nothing."""
-    lines = [
-        f"    data.ctrl[{i}] = {_at(law)}  # {model.actuator(i).name}"
-        for i, law in enumerate(laws)
-        if law.law not in BY_ITSELF
-    ]
-    if not lines:
+    following = [(i, law) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
+    if not following:
         return ""
+    lines = [f"    data.ctrl[{i}] = {_at(law)}  # {model.actuator(i).name}" for i, law in following]
     # MuJoCo asks it of every model of the process.
     begins = ["def control(model, data):", f"    if model.nu != {model.nu}:", "        return"]
     begins.append("    t = data.time")
-    code = ["import math", "import mujoco", "import numpy", *begins, *lines]
-    said = [_SAID, _CORNERS] if any(law.corners for law in laws) else [_SAID]
+    said, imports, helpers = [_SAID], ["import math", "import mujoco", "import numpy"], list[str]()
+    if any(law.corners for _, law in following):
+        said.append(_CORNERS)
+        begins += ["    h = model.opt.timestep", "    begin = begin_of_step(t, h)"]
+        helpers += ["", "", *_BEGINS.splitlines()]
+    if any(law.law == "table" for _, law in following):
+        imports.insert(1, "from itertools import pairwise")
+        helpers += ["", "", *getsource(under).splitlines()]
+    code = [*imports, *helpers, *(["", ""] if helpers else []), *begins, *lines]
     return commented(said) + "\n".join(
         ["<!--", *code, "mujoco.set_mjcb_control(control)", "-->", ""]
     )
 
 
 def _at(law: Signal) -> str:
-    """The factor of the law's amplitude at t."""
+    """The factor of the law's amplitude at t, or its mean over a step with a corner."""
     times = [repr(time) for time in law.times]
     return {
         "sine": lambda: f"math.sin({law.angular_frequency!r} * t + {law.phase!r})",
-        "step": lambda: f"1.0 if t >= {times[0]} else 0.0",
-        "pulse": lambda: f"1.0 if {times[0]} <= t < {times[1]} else 0.0",
+        "step": lambda: _after(times[0]),
+        "pulse": lambda: f"{_after(times[0])} - {_after(times[1])}",
         "polynomial": lambda: " + ".join(f"{c!r} * t**{k}" for k, c in enumerate(law.values)),
-        "table": lambda: f"numpy.interp(t, {list(law.times)!r}, {list(law.values)!r})",
+        "table": lambda: _interpolated(law),
     }[law.law]()
+
+
+def _after(begins: str) -> str:
+    """The share of the step that is after an instant."""
+    return f"min(1.0, max(0.0, (begin + h - {begins}) / h))"
+
+
+def _interpolated(law: Signal) -> str:
+    """On lines between the table's points, or the mean."""
+    times, values = law.times, law.values
+    ends = (f"under({times}, {values}, {t})" for t in ("begin + h", "begin"))
+    there = f"any(begin - {NEAR} * h <= x <= begin + (1 + {NEAR}) * h for x in {times})"
+    return f"({' - '.join(ends)}) / h if {there} else numpy.interp(t, {times}, {values})"
 
 
 # A scene's MJCF file with shapes for a viewer: they weigh nothing and touch nothing.

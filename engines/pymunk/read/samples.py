@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pymunk.batch import BodyFields, Buffer
 
 from ....cases.trajectory import Array, Trajectory
+from ...signal import NEAR
 from ..model.chipmunk_state import copier
 from ..model.world import World
 from ..stepping.run import Steps
@@ -47,7 +48,8 @@ def sampled(
     samples: Counts = np.rint(times / step).astype(int)
     if max(abs(times - samples * step)) > 1e-9 * max(times[-1], step):
         raise ValueError(f"pymunk: the samples are no whole multiples of the step {step:g} s")
-    stops, weights = _weights(samples, midpoint)
+    corners = np.array(world.scene.corners()) / step
+    stops, weights = _weights(samples, midpoint, corners)
     known, wanted = set(samples.tolist()), set(stops.ravel().tolist() if reactions else ())
     kept: list[list[float]] = []
     read, copy = impulses(world, reactions), copier(world.space, _FIELDS, _BUFFER)
@@ -76,17 +78,26 @@ def sampled(
     )
 
 
-def _weights(samples: Counts, midpoint: bool) -> tuple[Counts, Array]:
+def _weights(samples: Counts, midpoint: bool, corners: Array) -> tuple[Counts, Array]:
     """Which steps' impulses give the force at each sample, and with what weights: (N, ·) each.
 
     The impulse of step n acts over its middle tₙ − h/2. Unless `midpoint`, it is read as what a
     user sees after the step. The first two steps settle the joints' gaps (5/8 and 11/8 of the
     force that holds a curved path), so the force at the start is extrapolated from the next two.
+
+    corners: of the laws in time, in steps. What led to a sample on one is not what acts after it,
+    and no step over one is a force at a sample beside it.
     """
+    ahead = corners[None, :] - samples[:, None]
     if not midpoint:
-        return np.maximum(samples, 1)[:, None], np.ones((len(samples), 1))
+        on = np.any(np.abs(ahead) < NEAR, axis=1)
+        return np.maximum(samples + on, 1)[:, None], np.ones((len(samples), 1))
+    before = np.any((ahead > NEAR - 1) & (ahead < NEAR), axis=1)
+    after = np.any((ahead > NEAR) & (ahead < 1 - NEAR), axis=1) & ~before & (samples > 1)
     stops = np.column_stack([samples, samples + 1])
     weights = np.full(stops.shape, 0.5)
+    for side, steps in ((before, (1, 2)), (after, (0, -1))):
+        stops[side], weights[side] = samples[side, None] + steps, (1.5, -0.5)  # at h/2 and 3/2 h
     stops[samples == 0], weights[samples == 0] = (3, 4), (3.5, -2.5)  # at 5/2 h and 7/2 h
     return stops, weights
 

@@ -14,7 +14,7 @@ from ....engines.knobs import Options
 from ....reference.solve import Solution
 from ...compare.trial.ladder import judged_step
 from ...compare.trial.start import first
-from ...data.row import UNSEARCHED, Cause, Comparison, StepError, as_written
+from ...data.row import UNSEARCHED, Cause, Comparison, Rungs, StepError, as_written
 from ..task_results import Results
 from ..tasks import Pair
 from .candidate import Candidate
@@ -42,6 +42,7 @@ class Known:
 def causes(
     comparisons: Sequence[Comparison],
     steps: Sequence[StepError],
+    ladders: Sequence[Rungs],
     pairs: Iterable[Pair],
     results: Results,
     *,
@@ -52,7 +53,7 @@ def causes(
 
     known: what is carried over where it stands on the same.
     """
-    rows = Rows(comparisons)
+    rows = Rows(comparisons, ladders)
     off, found = list(rows.off()), dict[tuple[str, ...], list[Cause]]()
     for row in off:
         if ours := rows.ours(row):

@@ -4,7 +4,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from ...data.row import AGREES, BEYOND, DEVIATES, DIVERGED, Cause, Comparison
+from ...compare.judge.cause import STEPS
+from ...data.row import (
+    AGREES,
+    BEYOND,
+    DEVIATES,
+    DIVERGED,
+    UNSETTLED,
+    Cause,
+    Comparison,
+    Rungs,
+)
 
 OFF = (BEYOND, DEVIATES, DIVERGED)
 OURS = {
@@ -21,9 +31,10 @@ def key_of(row: Comparison | Cause) -> Key:
 
 @dataclass(frozen=True)
 class Rows:
-    """Every row of a run."""
+    """Every row of a run, and its ladders."""
 
     comparisons: Sequence[Comparison]
+    ladders: Sequence[Rungs] = ()
 
     def off(self) -> Iterator[Comparison]:
         """The engines' own that are above their tolerance, whatever the verdict is called."""
@@ -33,9 +44,30 @@ class Rows:
                 yield row
 
     def ours(self, row: Comparison) -> list[Comparison]:
-        """Rows that agree with a law or driver of ours, if only such do: its model is another."""
+        """Rows that agree with a law or driver of ours, if only such do: its model is another.
+
+        Nothing says so where the engine's own ladder, with the row's setting or the tuned one, ends
+        within or blames the step, nor where that of the tuned one is too short to blame anything.
+        """
         agree = self._tuned.get((row.case, row.engine, row.quantity), {})
-        return [] if "native" in agree else [agree[way] for way in OURS if way in agree]
+        steps = {(row.case, row.engine, s, row.quantity) for s in (row.setting, "tuned")}
+        if "native" in agree or steps & self._by_steps:
+            return []
+        return [agree[way] for way in OURS if way in agree]
+
+    @cached_property
+    def _by_steps(self) -> set[Key]:
+        """What smaller steps of the engine's own may bring within."""
+        return {
+            (one.case, one.engine, one.setting, one.quantity)
+            for one in self.ladders
+            if one.realised == "native"
+            and (
+                one.usable_step
+                or one.verdict in STEPS
+                or (one.setting == "tuned" and one.verdict == UNSETTLED)
+            )
+        }
 
     @cached_property
     def _tuned(self) -> Mapping[tuple[str, str, str], dict[str, Comparison]]:

@@ -30,16 +30,17 @@ def _told(found: Convergence, finer: str) -> str:
     order = "" if found.order is None else f" with order {found.order:.1f}"
     limit = f"{found.limit or 0.0:.3g}"
     sizes = found.errors.values()
-    every = f"{min(sizes):.3g} to {max(sizes):.3g} on every rung"
+    finest = f"no step down to h = {min(found.errors):.3g} s helps"
+    every = f"{finest}: {min(sizes):.3g} to {max(sizes):.3g} on every rung"
     if _beside(found):
-        return f"beside an event no smaller step helps: {every}; elsewhere the error falls{order}"
+        return f"beside an event {every}; elsewhere the error falls{order}"
     return {
         of.EXACT: f"the step: {enough}" if usable else "rounding",
         of.TEXTBOOK: f"the step: it falls{order}, {enough}",
         of.WITHIN: f"the step: {enough}; the model's own {limit} would be",
         of.ANOTHER: f"the model: {limit} remains for h → 0",
         of.FALLS: f"the step: its size falls{order or ', with no clear order'}, {enough}",
-        of.STAYS: f"no smaller step helps: {every}",
+        of.STAYS: every,
         of.UNSETTLED: "the ladder has not settled: neither step nor model can be named",
         of.INSTANTS: f"instants of events: {enough}",
     }[found.verdict]

@@ -22,6 +22,8 @@ TEXTBOOK_BELOW = 1e-6  # of `allow`: nobody can use so small a difference
 ANOTHER_BEYOND = 4.0
 NOISE = 0.7  # a halved step halves a difference of first order; noise keeps it
 FEWEST = 3  # samples away from events, or they say nothing of a motion
+GROWN = 2.0  # the ratio of two differences of noise is less
+FAR = 100  # differences: what is further off is not reached by what they grow to
 OF_ALLOW = 0.1  # an uncertainty above this part of `allow` decides nothing
 CLEAR = 0.5  # by what the last three orders of the errors' size may differ
 SLOWEST = 0.25  # the least order of a size that falls at every halving: half in four of them
@@ -92,6 +94,7 @@ def study(
     doubt = max(left, 0.0 if behind is None else _late(rungs, behind[keep]))
     if settled == TEXTBOOK and left > OF_ALLOW * allow:
         settled, uncertainty = None, max(uncertainty, left)
+    doubt = max(doubt, _grown(rungs, size.sizes, off))
     if settled in (WITHIN, ANOTHER) and off <= ANOTHER_BEYOND * doubt:
         settled, uncertainty = None, max(uncertainty, doubt)
     limit = metric.round_to_floor(off, enlarged), metric.round_up_to_floor(uncertainty, enlarged)
@@ -150,6 +153,19 @@ def _late(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
     return float(np.max(metric.sizes(rungs[1] - rungs[0])[behind], initial=0.0))
 
 
+def _grown(rungs: Sequence[Array], sizes: Sequence[float], off: float) -> float:
+    """How far from its limit the finest rung may be, where differences grow as the step falls.
+
+    As where a fast turn is damped away on all coarse rungs: they are off by the same, and only
+    where the step begins to resolve it the error begins to fall, ever faster.
+    """
+    fine, coarse = (metric.largest(b - a) for a, b in itertools.pairwise(rungs[:3]))
+    finest, finer, coarser = sizes[:3]
+    faster = fine > coarse and finer - finest > coarser - finer > 0.0
+    grows = fine > GROWN * coarse or faster
+    return off if grows and off <= FAR * fine else 0.0
+
+
 @dataclass(frozen=True)
 class _Size:
     """The largest errors alone, by step, smallest first: what they say without a limit."""
@@ -167,7 +183,7 @@ class _Size:
 
     @property
     def verdict(self) -> str:
-        """Whether they fall, or stay what they are, however small the step."""
+        """Whether they fall, or stay what they are, on all of the ladder."""
         if len(self.sizes) <= LAST:
             return UNSETTLED
         finest, coarsest = self.sizes[0], self.sizes[-1]

@@ -1,14 +1,18 @@
 """Causes of real rows: those that are known by hand, and what is said where there are none."""
 
+from pathlib import Path
+from typing import Any
+
 import pytest
 from given import scenes
+from given.lines import ladder, row
 
 from textmech.reports.batch import suite
 from textmech.reports.batch.search.cause_rows import NOTHING
-from textmech.reports.batch.search.why import OURS
+from textmech.reports.batch.search.why import OURS, Rows
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.batch.suite import Report
-from textmech.reports.data.row import BEYOND, UNSEARCHED, Cause
+from textmech.reports.data.row import ANOTHER, BEYOND, FALLS, UNSEARCHED, UNSETTLED, Cause
 
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force", "planar_bodies")
 
@@ -92,3 +96,42 @@ def test_without_a_search_what_the_ladder_tells_stays() -> None:
     assert {cause.cure for cause in report.causes} == {UNSEARCHED}
     row = next(r for r in report.comparisons if r.verdict == BEYOND)
     assert row.because.startswith("the step: it falls with order 1.0")
+
+
+@pytest.mark.mutant("our law for a cure, where the engine's own smaller step is one: {setting}")
+@pytest.mark.parametrize("setting", ["shipped", "tuned"])
+@pytest.mark.parametrize("told", [{"usable": 1e-3}, {"usable": None, "verdict": FALLS}])
+def test_our_law_is_no_cause_where_a_smaller_step_agrees(
+    setting: str, told: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    off, law = row(ratio=3.0, allowed=1e-2), row("tuned", realised="law")
+    given = [off, row("tuned", ratio=2.0), law]
+    assert Rows(given, [ladder(**told, setting=setting)]).ours(off) == []
+    assert Rows(given, [ladder(None, setting, verdict=ANOTHER)]).ours(off) == [law]
+    short = Rows(given, [ladder(None, setting, verdict=UNSETTLED)])
+    assert short.ours(off) == ([] if setting == "tuned" else [law])
+    assert Rows(given, [ladder(**told, setting=setting, realised="law")]).ours(off) == [law]
+    monkeypatch.setattr(Rows, "_by_steps", set())
+    assert Rows(given, [ladder(**told, setting=setting)]).ours(off) == [law]
+
+
+DAMPED = """\
+scene:
+  points: {O: [0, 0], W: [1.0, 0.5]}
+  bodies: {rod: {bar: {mass: 1.0, length: 1.0}}}
+  joints: {hinge: {pin: [ground.O, rod.start]}}
+  forces: {oil: {damper: [rod.end, ground.W], damping: 2.0}}
+initial: {rod: {angle: 0, omega: 0}}
+allow: {rod.angle: 4.0e-3}
+"""
+DAMPED_FOR = "duration: 1.0\nsamples: 11\nstep: {pymunk: 2.5e-3}\n"
+
+
+@pytest.mark.slow
+def test_a_damper_of_the_engines_own_that_a_smaller_step_cures(tmp_path: Path) -> None:
+    case = scenes.typed(tmp_path, DAMPED, tail=DAMPED_FOR)
+    found = suite.measure(
+        [case], choose_engines(["pymunk"], []), jobs=2, progress=lambda *_: None, causes=True
+    )
+    cures = {(c.setting, c.cure) for c in found.causes}
+    assert cures == {("shipped", "step"), ("tuned", "step")}
