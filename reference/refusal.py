@@ -106,6 +106,8 @@ def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
+        case OneInstant(part=part) if (name := part.partition(".")[0]) in case.scene.forces:
+            return case.mistake(("scene", "forces", name), str(failure))
         case OneInstant(part=part):
             return case.mistake(("scene", "contacts", part), str(failure))
         case Undetermined(part=part) if (name := part.partition(".")[0]) in _touching(case):

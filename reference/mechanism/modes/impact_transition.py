@@ -183,10 +183,10 @@ def check_alone(
     """Raises OneInstant if what strikes in contact i passes its blow on in the same instant."""
     first, small = modes.elements[i], ROUNDING * float(np.max(np.abs(v)))
     others = [
-        (e, state)
+        e
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
         if _shares(first, e, state)
-        if state != "open" or strikes_too(e, t, q, v, size)
+        if state != "open" or _touches(e, t, q, size)
     ]
     if not others:
         return
@@ -194,12 +194,12 @@ def check_alone(
         alone, _ = impact(modes.M, held, [m for m in met if m.strikes], v)
     except NoImpact:
         return  # with all that touch it is tried again, and told
-    for e, state in others:
+    for e in others:
         assert e.normal is not None
         before, now = rate(e.normal, t, q, v), rate(e.normal, t, q, alone.v)
         if now < -small and abs(now - before) > small:
             both = f"{first.name} and {e.name} strike at one instant, t = {t:.4g} s"
-            if state != "open":
+            if before >= -small:
                 both = f"{first.name} strikes at t = {t:.4g} s what {e.name} touches and passes on"
             what = (
                 f"{both}: rigid bodies do not say how the blow is divided; leave a gap, so that "
@@ -223,4 +223,10 @@ def strikes_too(e: Element, t: float, q: Array, v: Array, size: float) -> bool:
     """Whether an open contact closes at this instant as well, in a scene of that size [m]."""
     assert e.normal is not None
     small = ROUNDING * float(np.max(np.abs(v)))
-    return e.normal.f(t, q.tolist())[0] <= e.near(size) and rate(e.normal, t, q, v) < -small
+    return _touches(e, t, q, size) and rate(e.normal, t, q, v) < -small
+
+
+def _touches(e: Element, t: float, q: Array, size: float) -> bool:
+    """Whether its gap is none: what bears no force is open, and rounding may say so or not."""
+    assert e.normal is not None
+    return bool(e.normal.f(t, q.tolist())[0] <= e.near(size))

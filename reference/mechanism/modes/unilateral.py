@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ....cases.scene import CENTER, Anchor, Limit, Scene
+from ....cases.scene import CENTER, GROUND, Anchor, Limit, Scene
 from ....cases.scene.forces.force import Spring
 from ....cases.scene.forces.limit import Rope, Stops
 from ....cases.scene.pair import Pair
@@ -145,7 +145,13 @@ def roped(scene: Scene, rope: Rope, side: str, where: Layout) -> Limited:
     row = (Distance(FIRST, SECOND),)
     taut = Constraint(rope.name, (rope.a, rope.b), (row,), ((side,),), (sense * at,), where)
     quantity = f"{rope.name}.{side}"
-    return Roped(name=rope.name, quantity=quantity, normal=taut, plane="end of its length")
+    return Roped(
+        name=rope.name,
+        quantity=quantity,
+        normal=taut,
+        plane="end of its length",
+        two=_between(rope.a, rope.b),
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,8 +178,18 @@ def stopped(scene: Scene, stops: Stops, side: str, where: Layout) -> Limited:
     struck = Constraint(stops.name, ends, (row,), ((side,),), (sense * at,), where)
     name = f"{stops.name}.{side}"
     return Stopped(
-        name=name, quantity=name, normal=struck, restitution=stops.back, plane=f"{side} stop"
+        name=name,
+        quantity=name,
+        normal=struck,
+        restitution=stops.back,
+        plane=f"{side} stop",
+        two=_between(joint.a, joint.b),
     )
+
+
+def _between(a: Anchor, b: Anchor) -> bool:
+    """Whether both are of bodies."""
+    return GROUND not in (a.body, b.body)
 
 
 LIMITS: dict[type[Limit], Callable[[Scene, Any, str, Layout], Limited]] = {

@@ -10,7 +10,7 @@ from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import VX
-from textmech.reference.mechanism.modes import impact
+from textmech.reference.mechanism.modes import impact, unilateral
 from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
@@ -268,3 +268,43 @@ def test_that_both_corners_have_to_hold_is_seen(
     monkeypatch.setattr(impact, "_choices", blind._choices)
     with pytest.raises(CaseError, match="no impulse satisfies the friction law"):
         solve(scenes.typed(tmp_path, TALL, tail=scenes.tail(0.12, 11)))
+
+
+LEG = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {a: {bar: {mass: 1.0, length: 1.0}}, b: {bar: {mass: 1.0, length: 1.0}}}
+  joints: {h: {pin: [ground.O, a.start]}, k: {pin: [a.end, b.start]}}
+  forces:
+    e: {stops: h, low: -2 deg, restitution: 0.3}
+    f: {stops: k, low: 0 deg}
+    q: {torque: b, constant: PRESS}
+initial: {a: {angle: 0.2, omega: -1}, b: {angle: 0.2, omega: -1}}
+allow: {a.angle: 1.0e-3}
+"""
+PRESSED = ["0.0", "-1.0e-12", "-1.0e-6"]  # N m: bars in line, by rounding or by a force
+
+
+@pytest.mark.mutant("a stop between two bodies taken for one on the ground, which holds a blow")
+@pytest.mark.mutant("a stop that touches without a force, asked before a blow whether it closes")
+@pytest.mark.parametrize("press", PRESSED)
+def test_a_stop_that_touches_is_struck_at_the_same_instant(
+    press: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of one blow 0.3 rad/s are left, of one after the other 0.2147: rounding chose."""
+    case = scenes.typed(tmp_path, LEG.replace("PRESS", press), tail=scenes.tail(0.4, 21))
+    with pytest.raises(CaseError) as caught:
+        solve(case)
+    (mistake,) = caught.value.mistakes
+    assert mistake.where == "scene.forces.e"
+    assert "e.low strikes at t = 0.2349 s what f.low touches and passes on" in mistake.what
+    monkeypatch.setattr(unilateral, "_between", lambda a, b: False)
+    monkeypatch.setattr(landing, "_touches", lambda *given: False)
+    rates = {"0.0": 0.214687, "-1.0e-12": 0.3, "-1.0e-6": 0.3}
+    assert solve(case).trajectory.states["a"][-1, 5] == pytest.approx(rates[press], abs=1e-5)
+
+
+def test_stops_that_throw_nothing_back_are_one_blow(tmp_path: Path) -> None:
+    text = LEG.replace("PRESS", "0.0").replace(", restitution: 0.3", "")
+    assert solve(scenes.typed(tmp_path, text, tail=scenes.tail(0.4, 21))).holds
