@@ -29,7 +29,9 @@ from .errors import errors
 from .event_time_error import untimed
 from .file_checks import as_the_file_says
 from .laws import laws
+from .one_sided_checks import one_sided_checks
 from .reaction_check import reaction_checks
+from .reading import size
 from .work_error import work_errors
 
 OWN_ERROR = 1e-12  # of the motion's size: what a motion is known to that is not sensitive
@@ -93,6 +95,8 @@ def certify(
     checks += laws(written, generated, times, marched, known)
     checks += _drift(system, followed, own)
     checks += as_the_file_says(case, written, generated, motion, own)
+    large = size(case.scene.frame, motion, size_of(case), case.duration)
+    checks += one_sided_checks(case, written, motion, marched, large, own)
     if len(system.modes) > 1 or any(system.guards(mode) for mode in followed.phases):
         checks.append(Check("modes possible", _impossible(system, followed), 0.0))
     if generated.beside is not None:  # no bound but the case's: another motion of as good a start

@@ -1,0 +1,246 @@
+"""Rows that ask what contacts, pairs, ropes and stops do by the file: each sees what answers share.
+
+No scene here has a hand-written system: all answers come from one mechanism, which is mistaken.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from given import scenes
+
+from textmech.cases.fields.friction import Bounds
+from textmech.cases.scene.forces.limit import Rope, Stops
+from textmech.reference.mechanism.constraints.constraint import Constraint
+from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Along, Turning
+from textmech.reference.mechanism.modes import blow, element, unilateral
+from textmech.reference.mechanism.modes import impact_transition as landing
+from textmech.reference.solve import solve
+
+PASSES, TOUCHES = "nothing passes what holds it", "what presses touches"
+FRICTION, BLOWS = "friction is the file's", "blows are the file's"
+TWO_STOPS = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {a: {bar: {mass: 1.0, length: 1.0}}, b: {bar: {mass: 0.6, length: 0.7}}}
+  joints: {h: {pin: [ground.O, a.start]}, k: {pin: [a.end, b.start]}}
+  forces: {f: {stops: k, low: -0.5, high: 0.4, restitution: 0.4}}
+initial: {a: {angle: 0.2, omega: 0.5}, b: {angle: 0.3, omega: 3}}
+allow: {a.angle: 1.0e-3}
+"""
+ROPE = """\
+scene:
+  gravity: none
+  bodies:
+    a: {rigid: {mass: 1.0, inertia: 0.01}, points: {P: [0.05, 0.02]}}
+    b: {rigid: {mass: 2.0, inertia: 0.03}, points: {P: [-0.03, 0.06]}}
+  forces: {r: {rope: [a.P, b.P], length: 1.0}}
+initial:
+  a: {x: 0, y: 0, angle: 0, omega: 1, vx: -1}
+  b: {x: 0.7, y: 0.2, angle: 0, omega: -0.5, vx: 1, vy: 0.5}
+allow: {a.x: 1.0e-3}
+"""
+BOUNCE = """\
+scene:
+  planes: {wall: {at: [1.0, 0], normal: [-1, 0.2]}}
+  bodies: {d: {disk: {mass: 1.0, radius: 0.1}}}
+  contacts:
+    f: {between: [d, ground.floor], friction: 0.2, restitution: 0.5}
+    w: {between: [d, ground.wall], friction: 0.3, restitution: 0.6}
+events: {l: {f.gap: falls to zero}, m: {w.gap: falls to zero}}
+initial: {d: {x: 0, y: 0.6, angle: 0, omega: 8, vx: 3, vy: -1}}
+allow: {d.x: 1.0e-3}
+"""
+ON_A_FACE = """\
+scene:
+  bodies:
+    box: {block: {mass: 3.0, width: 2.0, height: 0.2}}
+    d: {disk: {mass: 1.0, radius: 0.1}}
+  contacts:
+    s: {between: [d, box.top], friction: 0.3}
+    f1: {between: [box.lower_left, ground.floor], friction: 0.05}
+    f2: {between: [box.lower_right, ground.floor], friction: 0.05}
+initial: {box: {x: 0, y: 0.1, angle: 0}, d: {x: -0.5, y: 0.3, angle: 0, omega: 5, vx: 1}}
+allow: {d.x: 1.0e-3, box.x: 1.0e-3}
+"""
+STRIKES = """\
+scene:
+  gravity: none
+  bodies:
+    box: {block: {mass: 3.0, width: 0.6, height: 0.8}}
+    d: {disk: {mass: 1.0, radius: 0.1}}
+  contacts: {s: {between: [d, box.right], friction: 0.3, restitution: 0.2}}
+events: {hits: {s.gap: falls to zero}}
+initial:
+  box: {x: 0, y: 0, angle: 0.1}
+  d: {x: 0.9, y: 0.1, angle: 0, omega: 50, vx: -2, vy: 0.3}
+allow: {d.x: 1.0e-3, box.x: 1.0e-3}
+"""
+LOOSE = """\
+scene:
+  bodies: {b: {particle: {mass: 1.0}}}
+  contacts: {c: {between: [b, ground.floor], friction: {static: 0.5, kinetic: 0.2}}}
+  forces: {p: {push: b.center, ramp: [9, 0]}}
+initial: {b: {x: 0, y: 0}}
+allow: {b.x: 1.0e-3}
+"""
+RAIL = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {b: {block: {mass: 1.0, width: 0.1, height: 0.1}}}
+  joints:
+    rail:
+      slide: [ground.O, b.center]
+      along: [1, 0]
+      dry_friction: {kinetic: {forward: 2, backward: 3}, static: {forward: 4, backward: 5}}
+  forces: {p: {push: b.center, sine: {amplitude: [6, 0], angular_frequency: 8}}}
+initial: {b: {x: 0, vx: 1}}
+allow: {b.x: 1.0e-3}
+"""
+SCENES = {
+    "stops between two bodies": TWO_STOPS, "a rope": ROPE,
+    "a disk that bounces": BOUNCE, "a disk on a face": ON_A_FACE, "a blow on a face": STRIKES,
+    "what breaks loose": LOOSE, "a rail that rubs": RAIL,
+}  # fmt: skip
+
+
+def checks(folder: Path, name: str) -> dict[str, Any]:
+    case = scenes.typed(folder, SCENES[name], tail=scenes.tail(1.0, 26))
+    return {check.name: check for check in solve(case).checks}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_sound_holds(name: str, tmp_path: Path) -> None:
+    found = checks(tmp_path, name)
+    assert {FRICTION, PASSES} & found.keys()
+    assert [check for check in found.values() if not check.holds] == []
+
+
+def with_row(constraint: Constraint, row: Any) -> Constraint:
+    return replace(constraint, rows=(row,))
+
+
+def arm_of(limit: Callable[..., Any], factor: float, extra: float) -> Callable[..., Any]:
+    """The limit, whose row takes the first body's turn so many times, and so much of the second."""
+
+    def wrong(*given: Any) -> Any:
+        made = limit(*given)
+        first, *rest = made.normal.rows[0]
+        rest = [replace(term, axis=factor * term.axis) for term in rest]
+        more = [Turning(SECOND, extra)] if extra else []
+        return replace(made, normal=with_row(made.normal, (first, *rest, *more)))
+
+    return wrong
+
+
+def ends_at(limit: Callable[..., Any], factor: float) -> Callable[..., Any]:
+    def wrong(*given: Any) -> Any:
+        made = limit(*given)
+        return replace(made, normal=replace(made.normal, held=(factor * made.normal.held[0],)))
+
+    return wrong
+
+
+def slips_along(pair: Any, where: Any) -> Constraint:
+    made = ALONG(pair, where)
+    line, own, other = made.rows[0]
+    return with_row(made, (line, Turning(SECOND, 1.001 * own.axis), other))
+
+
+def tilted(contact: Any, where: Any) -> Constraint:
+    x, y = contact.plane.normal
+    return with_row(NORMAL(contact, where), (Along(FIRST, (x, 1.001 * y)),))
+
+
+def moved(contact: Any, where: Any) -> Constraint:
+    made = NORMAL(contact, where)
+    return replace(made, held=(made.held[0] * (1 + 1e-4),))  # type: ignore[index]
+
+
+def static(factor: float) -> Callable[..., Any]:
+    def margins(self: Any, forces: Any) -> tuple[float, float]:
+        bound, tangent = (forces[f"{self.name}.{name}"] for name in ("normal", "tangent"))
+        bound *= factor * self.static
+        return bound + tangent, bound - tangent
+
+    return margins
+
+
+def other_way(self: Any, forces: Any) -> tuple[float, float]:
+    turned = Bounds(self.friction.static.backward, self.friction.static.forward)
+    friction = replace(self.friction, static=turned)
+    return MARGINS(replace(self, friction=friction), forces)
+
+
+def bounces(*given: Any, **named: Any) -> Any:
+    touching, met = MEETINGS(*given, **named)
+    return touching, [replace(m, after=1.0001 * m.after) for m in met]
+
+
+ALONG, NORMAL, SIGN = unilateral.along, element.normal, blow.sign
+ROPED, STOPPED, MARGINS = unilateral.roped, unilateral.stopped, element.Sliding.margins
+MEETINGS = landing._meetings
+LIMITS = unilateral.LIMITS
+MISTAKES: dict[str, tuple[Callable[[pytest.MonkeyPatch], object], list[str], set[str]]] = {
+    "a stop's moment on the first body is another": (
+        lambda patch: patch.setitem(LIMITS, Stops, arm_of(STOPPED, 1.001, 0.0)),
+        ["stops between two bodies"], {PASSES},
+    ),
+    "a stop stands elsewhere": (
+        lambda patch: patch.setitem(LIMITS, Stops, ends_at(STOPPED, 1.0001)),
+        ["stops between two bodies"], {PASSES},
+    ),
+    "a rope pulls beside its line": (
+        lambda patch: patch.setitem(LIMITS, Rope, arm_of(ROPED, 1.0, 1e-4)), ["a rope"], {PASSES},
+    ),
+    "a rope is longer": (
+        lambda patch: patch.setitem(LIMITS, Rope, ends_at(ROPED, 1.0001)), ["a rope"], {PASSES},
+    ),
+    "a rim on a face slips elsewhere": (
+        lambda patch: patch.setattr(unilateral, "along", slips_along),
+        ["a disk on a face"], {FRICTION},
+    ),
+    "a blow rubs by another coefficient": (
+        lambda patch: patch.setattr(blow, "sign", lambda state: 1.001 * SIGN(state)),
+        ["a disk that bounces", "a blow on a face"], {BLOWS},
+    ),
+    "a blow throws more back": (
+        lambda patch: patch.setattr(landing, "_meetings", bounces),
+        ["a disk that bounces", "stops between two bodies"], {BLOWS},
+    ),
+    "a plane is tilted": (
+        lambda patch: patch.setattr(element, "normal", tilted), ["a disk that bounces"], {PASSES},
+    ),
+    "a plane stands elsewhere": (
+        lambda patch: patch.setattr(element, "normal", moved), ["a disk that bounces"], {PASSES},
+    ),
+    "what sticks lets go later": (
+        lambda patch: patch.setattr(element.Touching, "margins", static(1.001)),
+        ["what breaks loose"], {FRICTION},
+    ),
+    "what sticks lets go earlier": (
+        lambda patch: patch.setattr(element.Touching, "margins", static(0.999)),
+        ["what breaks loose"], {FRICTION},
+    ),
+    "static friction the other way": (
+        lambda patch: patch.setattr(element.Sliding, "margins", other_way),
+        ["a rail that rubs"], {FRICTION},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("{mistake}, in all answers alike")
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_what_all_answers_share_is_seen(
+    mistake: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plant, names, seen = MISTAKES[mistake]
+    plant(monkeypatch)
+    for name in names:
+        failing = {check.name for check in checks(tmp_path, name).values() if not check.holds}
+        assert seen <= failing, (name, failing)
