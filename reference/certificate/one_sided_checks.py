@@ -5,8 +5,9 @@ asked, which read a gap and a slip from the states of the bodies. What they tell
 fast each gap closes before it and opens after it, and on a body that no joint holds its impulse.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from ...cases.scene.pair import Pair
 from ...cases.trajectory import ANGLE, OMEGA, VX, Array, Trajectory
 from ..motion.bodies import Answer
 from ..motion.follow import Change
+from ..system import instant
 from .agreement import Check, worst
 from .reading import Size
 
@@ -97,7 +99,7 @@ def one_sided_checks(
     yield Check("nothing passes what holds it", worst(passed), own)
     if known := [side for side in every if side.push in motion.reactions]:
         yield Check("what presses touches", worst(_pressing(known, seen, size)), own)
-    blows = [_Blow.of(scene, answer, change, size) for change in changes]
+    blows = [_Blow.of(scene, answer, first, last, size) for first, last in _at_once(case, changes)]
     if told := [each for blow in blows for each in blow.off(every)]:
         yield Check("blows are the file's", worst(told), BLOWS)
 
@@ -201,9 +203,19 @@ def _before(scene: Scene, answer: Answer, change: Change) -> Motion:
 # Blows: what a change of the mode does to the velocities.
 
 
+def _at_once(case: Case, changes: Sequence[Change]) -> Iterator[tuple[Change, Change]]:
+    """Yields the first and the last of each instant: what a blow closes is struck by the next."""
+    first: Change | None = None
+    for change, then in zip_longest(changes, changes[1:]):
+        first = first or change
+        if then is None or then.time > change.time + instant(case.duration):
+            yield first, change
+            first = None
+
+
 @dataclass(frozen=True)
 class _Blow:
-    """A change, with the states of the bodies just before and just after it."""
+    """What happens at one instant, with the states of the bodies just before and just after it."""
 
     scene: Scene
     time: float
@@ -213,13 +225,13 @@ class _Blow:
     ends: bool  # a pile of blows, whose last throws nothing back
 
     @staticmethod
-    def of(scene: Scene, answer: Answer, change: Change, size: Size) -> "_Blow":
-        modes, t = answer.system.modes, change.time
+    def of(scene: Scene, answer: Answer, first: Change, last: Change, size: Size) -> "_Blow":
+        modes, t = answer.system.modes, last.time
         before, after = (
             {name: np.array(pose, float) for name, pose in modes[mode].poses(t, *at).items()}
             for mode, at in (
-                (change.mode_before, modes[change.mode_before].parted(change.before)),
-                (change.mode_after, modes[change.mode_after].parted(change.after)),
+                (first.mode_before, modes[first.mode_before].parted(first.before)),
+                (last.mode_after, modes[last.mode_after].parted(last.after)),
             )
         )
         piles = answer.followed.endless
