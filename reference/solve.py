@@ -132,15 +132,16 @@ def _written(case: Case) -> System | None:
 def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:
     """The generated modes' reactions on the written motion, phase by phase.
 
-    With another count of phases there are none, and the certificate says why; nor are there any in
-    a phase that only a second answer has.
+    There are none in a phase that only a second answer has. With another count of phases they are
+    those of a phase that is not the motion's, and the certificate says so: its events differ.
     """
-    if len(found.phases) != len(followed.phases):
-        return lambda phase, t, poses: {}
+    same = len(found.phases) == len(followed.phases)
 
     def reactions(phase: int, t: float, poses: Mapping[str, Pose]) -> Mapping[str, float]:
         if phase >= len(found.phases):
-            return {}
+            if same:
+                return {}
+            phase = len(found.phases) - 1
         mode = generated.modes[found.phases[phase]]
         return mode.reactions(t, *generated.base.place(poses))
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ...cases.mistake import CaseError, nearest
+from ..data.row import FAILS
 from ..show.console import say
 from .done import DONE
 from .looking import looked_at
@@ -70,6 +71,8 @@ def plot(
     save(picture(name, chosen, found, *rows), file)
     DONE.append(f"the picture is {file}")
     say(f"written to {file}: {chosen}")
+    if failing := next((row.because for row in report.comparisons if row.verdict == FAILS), None):
+        say(f"FAILS: {failing}")
 
 
 def _one(case: str, long: bool) -> None:

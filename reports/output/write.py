@@ -75,7 +75,9 @@ def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certif
 
 def _known(error: float, least: float) -> float:
     at_least = max(error, least)
-    return 10.0 ** math.ceil(math.log10(at_least)) if at_least else 0.0
+    if not 0.0 < at_least < math.inf:
+        return at_least
+    return 10.0 ** math.ceil(math.log10(at_least))
 
 
 def _table(rows: Sequence[Any], kind: type) -> pd.DataFrame:

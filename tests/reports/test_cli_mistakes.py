@@ -168,3 +168,22 @@ def test_no_number_is_no_time_limit() -> None:
     done = textmech("run", "bar_pendulum", "--time-limit", "nan")
     assert done.returncode == 2
     assert "'--time-limit': nan is no finite number" in done.stderr
+
+
+@pytest.mark.slow
+def test_a_scene_that_is_not_its_systems_is_told_by_every_command(tmp_path: Path) -> None:
+    """It has other events than its system, whose forces the mechanism's phases tell."""
+    text = shipped()["stribeck_drive"].read_text(encoding="utf-8")
+    file = tmp_path / "stribeck_drive.yaml"
+    file.write_text(text.replace("rest_length: 5}", "rest_length: 10}"), encoding="utf-8")
+    done = textmech("check", file)
+    assert done.returncode == 1
+    assert "the system 'stribeck_drive' moves otherwise than this scene" in done.stdout
+    done = textmech("run", file, "--engine", "pymunk.shipped", "--out", tmp_path / "o", "--page")
+    assert done.returncode == 1
+    assert "the reference is not certified" in done.stdout + done.stderr
+    assert ",inf," in (tmp_path / "o" / "reference.csv").read_text(encoding="utf-8")
+    done = textmech("plot", file, "--engine", "pymunk.shipped", "-o", tmp_path / "a.png")
+    assert "FAILS: the reference is not certified" in done.stdout
+    done = textmech("advise", file, "--engine", "pymunk")
+    assert "refused: the reference is not certified: the system" in done.stdout

@@ -10,6 +10,8 @@ from ....cases.case import Case
 from ....cases.mistake import CaseError
 from ....cases.scene import GROUND
 from ....engines.engine import Engine, Plan, Refusal, Tunable, lacking
+from ....reference.solve import Solution
+from ...compare.judge.uncertified import uncertified
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
 from ...system.pool import Died, local, workers
@@ -105,6 +107,9 @@ def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
         raise CaseError([mistake for error in mistaken for mistake in error.mistakes])
     lost = {key: answer.because for key, answer in found.items() if isinstance(answer, Died)}
     lost |= {key: f"{_FAR}: {error.mistakes[0].what}" for key, error in wrong.items()}
+    lost = {key: f"there is no reference: {why}" for key, why in lost.items()}
+    solutions = {key: answer for key, answer in found.items() if isinstance(answer, Solution)}
+    lost |= {key: uncertified(one) for key, one in solutions.items() if not one.holds}
     return [
         (replace(pair, case=case, key=key), lost.get(key, ""))
         for pair, case, key in zip(pairs, cases, keys, strict=True)
@@ -116,8 +121,7 @@ def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
     if broken:
         return Advised(pair, asked, Refusal("native", broken), None, None)
     if unsolved or case.states is not None:
-        why = f"there is no reference: {unsolved}" if unsolved else NO_STEPS
-        return Advised(pair, asked, Refusal("native", why), None, None)
+        return Advised(pair, asked, Refusal("native", unsolved or NO_STEPS), None, None)
     reference = pair.reference()
     ways = planned(engine, case.scene, first(reference))
     way = next(way for way in ways if way.realised == "native")
