@@ -105,7 +105,7 @@ def one_sided_checks(
 
 
 def _pressing(known: list[Side], seen: Motion, size: Size) -> Iterator[float]:
-    """How far what presses is from what it presses on; how much it pulls, as a part."""
+    """Yields how far each that presses is from what it presses on; how much it pulls, as a part."""
     for side in known:
         force = seen.reaction(side.push)
         largest = worst(np.abs(force)) or 1.0
@@ -155,7 +155,7 @@ class _Rubbing:
         return np.where(np.abs(slip) > NEAR * fast, np.abs(force - moving), at_rest)
 
     def at(self, before: Motion, change: Change, told: set[str], size: Size) -> float:
-        """The same where a mode ends, and how far from its bound what breaks loose there was."""
+        """Returns that where a mode ends, or how far what breaks loose there was from its bound."""
         if any(not {*_forces(one)} <= before.trajectory.reactions.keys() for one in self.parts):
             return 0.0
         off = worst(self.off(before, size))
@@ -174,7 +174,7 @@ def _forces(one: Contact | Pair | Joint) -> list[str]:
 
 
 def _rubbing(scene: Scene, every: list[Side], motion: Trajectory) -> Iterator[_Rubbing]:
-    """Yields what rubs by (2.89) with forces that are known."""
+    """Yields the contacts and joints that rub by (2.89) with forces that are known."""
     groups: dict[tuple[str, str], list[Contact | Pair | Joint]] = {}
     for side in every:
         one = side.contact
@@ -215,7 +215,7 @@ def _at_once(case: Case, changes: Sequence[Change]) -> Iterator[tuple[Change, Ch
 
 @dataclass(frozen=True)
 class _Blow:
-    """What happens at one instant, with the states of the bodies just before and just after it."""
+    """All changes of one instant, with the states of the bodies just before and just after it."""
 
     scene: Scene
     time: float
@@ -277,7 +277,7 @@ class _Blow:
         return float(np.array([1.0, -8.0, 0.0, 8.0, -1.0]) @ side.gap(moved)) / (12.0 * h)
 
     def _impulse(self, side: Side) -> Iterator[float]:
-        """What a blow of one side alone gives to bodies that nothing else holds."""
+        """Yields errors of the impulse that one side alone gives to bodies that nothing else holds."""
         scene = self.scene
         held = {at.body for joint in scene.joints.values() for at in joint.refers()}
         held |= {edge.at.body for edge in scene.constraints.values()}

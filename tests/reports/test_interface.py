@@ -225,3 +225,8 @@ def test_variants_are_solved_one_by_one() -> None:
 def test_what_there_is_not_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="has no attribute 'sovle'"):
         _ = textmech.reports.sovle
+
+
+def test_no_case_is_not_all_of_them() -> None:
+    with pytest.raises(CaseError, match="cases: none is named"):
+        advise([])

@@ -1,7 +1,7 @@
 """Checks that a case fits together: links, claims, samples, parameters, system."""
 
 from collections.abc import Iterator, Mapping
-from math import ceil, isfinite, isnan
+from math import ceil, inf, isfinite, isnan
 from typing import Any
 
 from ...mistake import Path, nearest
@@ -137,9 +137,9 @@ def _off(file: File, interval: float) -> tuple[Path, float] | None:
     """Where the step [s] stands that does not divide the interval, and a smaller one that does."""
     steps = file.step if isinstance(file.step, Mapping) else {None: file.step}
     for name, h in steps.items():
-        if _fits(interval, 2, (h,)) or not 0 < h <= interval / 4:
+        if _fits(interval, 2, (h,)) or not 0 < h < inf:
             continue
-        least = ceil(interval / (4 * h))
+        least = ceil(interval / (4 * h))  # 1 of a step that is longer than that
         fitting = [interval / (4 * k) for k in range(least, 4 * least)]
         even = [x for x in fitting if abs(float(f"{x:.1e}") / x - 1) < 1e-9]
         path = ("step",) if name is None else ("step", name)

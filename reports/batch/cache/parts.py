@@ -27,6 +27,7 @@ OURS, BASIS = "textmech", ("numpy", "scipy")  # whose digests are in every key
 MANY = 1000  # files beside a module that is alone in its folder: more are nobody's adapter
 LONGEST = 200  # letters of a file's name in code
 INSTALLED = ("site-packages", "dist-packages")
+AT_START = ("sitecustomize", "usercustomize")  # Python runs them before all else
 WINDOWS = {"MUJOCO_GL", "glfw"}
 """With what engines show pictures. None of our runs does, and only the command forbids it: what it
 has computed would be computed again by pytest."""
@@ -61,6 +62,8 @@ class Parts:
         if (provided := engines.distribution(engine.name)) is not None:
             parts._names |= {_module_of(top) for top in _tops(provided)}
             parts._asked.append(provided)
+        for name in AT_START:
+            parts._module(name)
         held = _reached(parts._names)
         for found in parts._asked:
             parts._distribution(found, held)
@@ -193,10 +196,12 @@ def located(name: str) -> list[Path]:
     with suppress(ImportError, ValueError, AttributeError):
         spec = find_spec(name) if module is None else None
     folders = getattr(module, "__path__", None) or getattr(spec, "submodule_search_locations", None)
-    if folders:
-        return [Path(folder) for folder in folders if Path(folder).is_dir()]
+    found = [Path(folder) for folder in folders or () if Path(folder).is_dir()]
     file = getattr(module, "__file__", None) or getattr(spec, "origin", None)
-    return [Path(file)] if file and Path(file).is_file() else []
+    # A package's folders need not be where its code is: somebody may stand in front of it.
+    if file and Path(file).is_file() and not any(Path(file).is_relative_to(f) for f in found):
+        found.append(Path(file))
+    return found
 
 
 def _beside(home: Path) -> Iterator[Path]:

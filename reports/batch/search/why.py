@@ -57,7 +57,7 @@ class Rows:
 
     @cached_property
     def _by_steps(self) -> set[Key]:
-        """What smaller steps of the engine's own may bring within."""
+        """Returns the keys of all that smaller steps of the engine's own may bring within."""
         return {
             (one.case, one.engine, one.setting, one.quantity)
             for one in self.ladders

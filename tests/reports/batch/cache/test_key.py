@@ -355,3 +355,30 @@ def test_what_cannot_be_told_apart_is_not_described() -> None:
     for value in (lambda: 1, object()):
         with pytest.raises(TypeError):
             described(value)
+
+
+@pytest.mark.mutant("a package by its folders alone, though its code is another file's")
+def test_who_stands_in_front_of_a_package_is_a_part_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its `__path__` leads to the installed one: submodules are found there, the code is here."""
+    front = tmp_path / "front" / "__init__.py"
+    front.parent.mkdir()
+    front.write_text("")
+    known = sys.modules["pymunk"]
+    other = SimpleNamespace(__path__=list(known.__path__), __file__=str(front))
+    plain = parts.located("pymunk")
+    assert len(plain) == 1
+    monkeypatch.setitem(sys.modules, "pymunk", other)
+    assert parts.located("pymunk") == [*plain, front]
+
+
+@pytest.mark.mutant("what Python runs before all else in no key")
+def test_what_python_runs_first_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = words()[1]
+    first = tmp_path / "sitecustomize.py"
+    first.write_text("import pymunk\n")
+    monkeypatch.setitem(sys.modules, "sitecustomize", SimpleNamespace(__file__=str(first)))
+    assert words()[1] != before
+    monkeypatch.setattr(parts, "AT_START", ())
+    assert words()[1] == before
