@@ -7,9 +7,9 @@ fast each gap closes before it and opens after it, and on a body that no joint h
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.scene import Contact, Joint, Limit, Scene
@@ -47,7 +47,7 @@ class Side:
     contact: Contact | Pair | None = None
     rope: Rope | None = None
 
-    def on(self, motion: Motion) -> Array:
+    def on(self, motion: Motion) -> NDArray[np.bool_]:
         """(N,) whether it could be touched: not beside a face, nor where a foot swings through."""
         if isinstance(self.contact, Pair) and self.contact.face:
             return ~self.contact.beyond(motion)
@@ -205,12 +205,11 @@ def _before(scene: Scene, answer: Answer, change: Change) -> Motion:
 
 def _at_once(case: Case, changes: Sequence[Change]) -> Iterator[tuple[Change, Change]]:
     """Yields the first and the last of each instant: what a blow closes is struck by the next."""
-    first: Change | None = None
-    for change, then in zip_longest(changes, changes[1:]):
-        first = first or change
-        if then is None or then.time > change.time + instant(case.duration):
-            yield first, change
-            first = None
+    first = 0
+    for k, change in enumerate(changes):
+        if k + 1 == len(changes) or changes[k + 1].time > change.time + instant(case.duration):
+            yield changes[first], change
+            first = k + 1
 
 
 @dataclass(frozen=True)
@@ -277,7 +276,7 @@ class _Blow:
         return float(np.array([1.0, -8.0, 0.0, 8.0, -1.0]) @ side.gap(moved)) / (12.0 * h)
 
     def _impulse(self, side: Side) -> Iterator[float]:
-        """Yields errors of the impulse that one side alone gives to bodies that nothing else holds."""
+        """Yields errors of the impulse that one side alone gives to bodies that nothing holds."""
         scene = self.scene
         held = {at.body for joint in scene.joints.values() for at in joint.refers()}
         held |= {edge.at.body for edge in scene.constraints.values()}

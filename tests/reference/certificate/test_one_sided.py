@@ -130,7 +130,7 @@ def arm_of(limit: Callable[..., Any], factor: float, extra: float) -> Callable[.
     def wrong(*given: Any) -> Any:
         made = limit(*given)
         first, *rest = made.normal.rows[0]
-        rest = [replace(term, axis=factor * term.axis) for term in rest]
+        rest = [replace(term, axis=factor * getattr(term, "axis", 1.0)) for term in rest]
         more = [Turning(SECOND, extra)] if extra else []
         return replace(made, normal=with_row(made.normal, (first, *rest, *more)))
 
@@ -148,7 +148,7 @@ def ends_at(limit: Callable[..., Any], factor: float) -> Callable[..., Any]:
 def slips_along(pair: Any, where: Any) -> Constraint:
     made = ALONG(pair, where)
     line, own, other = made.rows[0]
-    return with_row(made, (line, Turning(SECOND, 1.001 * own.axis), other))
+    return with_row(made, (line, Turning(SECOND, 1.001 * getattr(own, "axis", 1.0)), other))
 
 
 def tilted(contact: Any, where: Any) -> Constraint:
