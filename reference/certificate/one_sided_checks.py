@@ -7,6 +7,7 @@ fast each gap closes before it and opens after it, and on a body that no joint h
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from ...cases.scene.forces.limit import Rope
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of
 from ...cases.scene.pair import Pair
-from ...cases.trajectory import ANGLE, OMEGA, VX, Array, Trajectory
+from ...cases.trajectory import OMEGA, VX, Array, Trajectory
 from ..motion.bodies import Answer
 from ..motion.follow import Change
 from ..system import instant
@@ -25,17 +26,17 @@ from .agreement import Check, worst
 from .reading import Size
 
 FORCES = 1e-9  # of the largest of a side: friction's is a product, and what is more is no rounding
-BLOWS = 1e-9  # of the motion's speed: four places of a body tell how fast a gap closes to 1e-12
+BLOWS = 1e-9  # of the motion's speed: rates are those of states that the events end, to 1e-12
 NEAR = 1e-8  # of the motion's size: what is nearer touches
-STEP = 1e-3  # of the motion's size: how far bodies are moved for that
+LEAST = 1e-6  # of what would stop the heaviest body in the duration: less force is rounding's
 
 
 @dataclass(frozen=True)
 class Side:
     """Something that holds on one side: `gap` is (N,) what it keeps from falling below zero.
 
-    push: the reaction that does. back: the part of the rate that it throws back. on: where it is
-    at all, (N,) of bool. bodies: on which it acts. friction: of what may slip.
+    push: the reaction that does. back: the part of the rate that it throws back. rate: (N,) how
+    fast the gap grows. bodies: on which it acts.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Side:
     unit: str  # of the gap: m or rad
     back: float
     gap: Callable[[Motion], Array]
+    rate: Callable[[Motion], Array]
     bodies: tuple[str, ...]
     contact: Contact | Pair | None = None
     rope: Rope | None = None
@@ -62,18 +64,35 @@ def sides(scene: Scene) -> Iterator[Side]:
             bodies = tuple(at.body for at in one.refers()[: 2 if isinstance(one, Pair) else 1])
             gap = lambda motion, one=one: one.observe(motion, "gap")  # noqa: E731
             push = f"{one.name}.normal"
-            yield Side(one.name, push, "m", one.restitution, gap, bodies, contact=one)
+            yield Side(
+                one.name, push, "m", one.restitution, gap, partial(_opens, one), bodies, contact=one
+            )
     for limit in scene.limits():
         rope = limit if isinstance(limit, Rope) else None
         ends = tuple(at.body for at in limit.refers() if at.body in scene.bodies)
         for k, side in enumerate(limit.sides):
             unit = "m" if rope else "rad"
             name = f"{limit.name}.{side}"
-            yield Side(name, name, unit, limit.back, _gap(limit, k), ends, rope=rope)
+            gap, rate = partial(_left, limit, k), partial(_grows, limit, side)
+            yield Side(name, name, unit, limit.back, gap, rate, ends, rope=rope)
 
 
-def _gap(limit: Limit, k: int) -> Callable[[Motion], Array]:
-    return lambda motion: list(limit.gaps(motion))[k]
+def _opens(one: Contact | Pair, motion: Motion) -> Array:
+    if isinstance(one, Pair):
+        return one.slip_and_gap_rate(motion)[1]
+    (x, y), (_, _, vx, vy) = one.plane.normal, motion.point(one.at).T
+    return x * vx + y * vy
+
+
+def _left(limit: Limit, k: int, motion: Motion) -> Array:
+    return list(limit.gaps(motion))[k]
+
+
+def _grows(limit: Limit, side: str, motion: Motion) -> Array:
+    if isinstance(limit, Rope):
+        return -motion.line(limit.a, limit.b)[1]
+    assert limit.about is not None
+    return limit.sides[side][0] * motion.turn(limit.about, limit.turn)[1]
 
 
 def one_sided_checks(
@@ -82,11 +101,13 @@ def one_sided_checks(
     """Gaps at every step, forces at the samples, and blows; own: what the motion is known to."""
     scene, changes = case.scene, answer.followed.changes
     every, seen = [*sides(scene)], motion_of(scene, motion)
-    rubbing = [*_rubbing(scene, every, motion)]
+    heaviest = max(body.mass for body in scene.bodies.values())
+    least = LEAST * heaviest * size.speed / case.duration
+    rubbing = [*_rubbing(scene, every, motion, least)]
     rubbed = [worst(one.off(seen, size)) / one.largest for one in rubbing]
     for change in changes if rubbing else ():
-        before, told = _before(scene, answer, change), set(change.mode_after.split(", "))
-        rubbed += [one.at(before, change, told, size) / one.largest for one in rubbing]
+        before = _before(scene, answer, change)
+        rubbed += [one.at(before, change, size) / one.largest for one in rubbing]
     if rubbed:
         yield Check("friction is the file's", worst(rubbed), FORCES)
     if not every:
@@ -154,15 +175,12 @@ class _Rubbing:
         at_rest = np.abs(force - np.clip(force, low, high))
         return np.where(np.abs(slip) > NEAR * fast, np.abs(force - moving), at_rest)
 
-    def at(self, before: Motion, change: Change, told: set[str], size: Size) -> float:
+    def at(self, before: Motion, change: Change, size: Size) -> float:
         """Returns that where a mode ends, or how far what breaks loose there was from its bound."""
         if any(not {*_forces(one)} <= before.trajectory.reactions.keys() for one in self.parts):
             return 0.0
         off = worst(self.off(before, size))
-        names = {one.name for one in self.parts}
-        sticks = {f"{name} sticks" for name in names} & {*change.mode_before.split(", ")}
-        slides = {f"{name} slides {way}" for name in names for way in "+-"} & told
-        if sticks and slides and change.guard is not None:
+        if change.name in {f"{one.name} slips" for one in self.parts}:
             _, force, low, high, _ = self.bounds(before)
             off = max(off, float(np.minimum(force - low, high - force)[0]))
         return off
@@ -173,7 +191,9 @@ def _forces(one: Contact | Pair | Joint) -> list[str]:
     return [f"{one.name}.{field}" for field in fields]
 
 
-def _rubbing(scene: Scene, every: list[Side], motion: Trajectory) -> Iterator[_Rubbing]:
+def _rubbing(
+    scene: Scene, every: list[Side], motion: Trajectory, least: float
+) -> Iterator[_Rubbing]:
     """Yields the contacts and joints that rub by (2.89) with forces that are known."""
     groups: dict[tuple[str, str], list[Contact | Pair | Joint]] = {}
     for side in every:
@@ -188,16 +208,24 @@ def _rubbing(scene: Scene, every: list[Side], motion: Trajectory) -> Iterator[_R
         names = [name for one in parts for name in _forces(one)]
         if {*names} <= motion.reactions.keys():
             largest = worst(np.abs(np.concatenate([motion.reactions[name] for name in names])))
-            yield _Rubbing(tuple(parts), largest or 1.0)
+            yield _Rubbing(tuple(parts), max(largest, least) or 1.0)
 
 
 def _before(scene: Scene, answer: Answer, change: Change) -> Motion:
     """The bodies and their forces just before a change."""
-    mode = answer.system.modes[change.mode_before]
-    at = mode.parted(change.before)
-    states = {n: np.array([p], float) for n, p in mode.poses(change.time, *at).items()}
-    told = {n: np.array([f]) for n, f in mode.reactions(change.time, *at).items()}
-    return motion_of(scene, Trajectory(np.array([change.time]), states, told))
+    return _at(scene, answer, change.mode_before, change.time, change.before, forces=True)
+
+
+def _at(
+    scene: Scene, answer: Answer, name: str, t: float, y: Array, *, forces: bool = False
+) -> Motion:
+    """One state in a mode, as elements look at it."""
+    mode = answer.system.modes[name]
+    q, v = mode.parted(y)
+    states = {body: np.array([pose], float) for body, pose in mode.poses(t, q, v).items()}
+    told = mode.reactions(t, q, v) if forces else {}
+    reactions = {reaction: np.array([force]) for reaction, force in told.items()}
+    return motion_of(scene, Trajectory(np.array([t]), states, reactions))
 
 
 # Blows: what a change of the mode does to the velocities.
@@ -212,68 +240,56 @@ def _at_once(case: Case, changes: Sequence[Change]) -> Iterator[tuple[Change, Ch
             first = k + 1
 
 
+def _span(pile: Array) -> tuple[float, float]:
+    """From the last blow that was followed of a pile to well behind its limit [s]."""
+    two, one = np.diff(pile[-3:]).tolist()
+    last = float(pile[-1])
+    return last - one, last + 2.0 * one * one / (two - one)
+
+
 @dataclass(frozen=True)
 class _Blow:
     """All changes of one instant, with the states of the bodies just before and just after it."""
 
     scene: Scene
-    time: float
-    before: dict[str, Array]
-    after: dict[str, Array]
+    before: Motion  # of one row, and after
+    after: Motion
     size: Size
     ends: bool  # a pile of blows, whose last throws nothing back
 
     @staticmethod
     def of(scene: Scene, answer: Answer, first: Change, last: Change, size: Size) -> "_Blow":
-        modes, t = answer.system.modes, last.time
-        before, after = (
-            {name: np.array(pose, float) for name, pose in modes[mode].poses(t, *at).items()}
-            for mode, at in (
-                (first.mode_before, modes[first.mode_before].parted(first.before)),
-                (last.mode_after, modes[last.mode_after].parted(last.after)),
-            )
-        )
-        piles = answer.followed.endless
-        ends = any(abs(float(pile[-1]) - t) <= 1e-6 * max(1.0, t) for pile in piles if len(pile))
-        return _Blow(scene, t, before, after, size, ends)
+        before = _at(scene, answer, first.mode_before, first.time, first.before)
+        after = _at(scene, answer, last.mode_after, last.time, last.after)
+        piles = map(_span, answer.followed.endless)
+        ends = any(begin <= last.time <= end for begin, end in piles)
+        return _Blow(scene, before, after, size, ends)
 
     def off(self, every: list[Side]) -> Iterator[float]:
         """How far each side that touches is from what the file says of the blow."""
-        if all(np.array_equal(rows, self.after[name]) for name, rows in self.before.items()):
+        before, after = self.before.trajectory.states, self.after.trajectory.states
+        if all(np.array_equal(rows, after[name]) for name, rows in before.items()):
             return
-        here = self._moved(self.before)
         near = [
             side
             for side in every
-            if abs(side.gap(here)[2]) <= NEAR * self.size.of(side.unit) and side.on(here)[2]
+            if abs(side.gap(self.before)[0]) <= NEAR * self.size.of(side.unit)
+            and side.on(self.before)[0]
         ]
         both = self.before, self.after
-        rates = {side.name: tuple(self._rate(side, states) for states in both) for side in near}
+        rates = {side.name: [float(side.rate(at)[0]) for at in both] for side in near}
         struck = [side for side in near if rates[side.name][0] < -BLOWS * self._speed(side)]
         for side in near:
-            u, after = rates[side.name]
-            wanted = -side.back * u if side in struck else 0.0
+            closes, opens = rates[side.name]
+            wanted = -side.back * closes if side in struck else 0.0
             least = 0.0 if self.ends or len(struck) > 1 else wanted
             most = wanted if struck == [side] else np.inf
-            yield max(0.0, least - after, after - most) / self._speed(side)
+            yield max(0.0, least - opens, opens - most) / self._speed(side)
         if len(near) == 1 == len(struck):
             yield from self._impulse(near[0])
 
     def _speed(self, side: Side) -> float:
         return self.size.speed if side.unit == "m" else self.size.rate
-
-    def _moved(self, states: dict[str, Array]) -> Motion:
-        """Five places: where the bodies are, and two before and behind on their way."""
-        h = STEP * min(self.size.m / self.size.speed, 1.0 / self.size.rate)
-        times = h * np.arange(-2.0, 3.0)
-        rows = {name: _along(state, times) for name, state in states.items()}
-        return motion_of(self.scene, Trajectory(self.time + times, rows, {}))
-
-    def _rate(self, side: Side, states: dict[str, Array]) -> float:
-        """How fast the gap grows, to the fourth order."""
-        moved = self._moved(states)
-        h = float(moved.trajectory.times[3] - moved.trajectory.times[2])
-        return float(np.array([1.0, -8.0, 0.0, 8.0, -1.0]) @ side.gap(moved)) / (12.0 * h)
 
     def _impulse(self, side: Side) -> Iterator[float]:
         """Yields errors of the impulse that one side alone gives to bodies that nothing holds."""
@@ -282,15 +298,15 @@ class _Blow:
         held |= {edge.at.body for edge in scene.constraints.values()}
         if held & {*side.bodies} or not side.bodies:
             return
-        here = self._moved(self.before)
-        place, normal = _where(side, here)
+        place, normal = _where(side, self.before)
+        before, after = self.before.trajectory.states, self.after.trajectory.states
         along = np.array([normal[1], -normal[0]])  # it has the normal to its left
         for sign, name in zip((1.0, -1.0), side.bodies, strict=False):
-            body, jump = scene.bodies[name], self.after[name] - self.before[name]
+            body, jump = scene.bodies[name], after[name][0] - before[name][0]
             push = body.mass * jump[VX : VX + 2]
             size = body.mass * self.size.speed
             if body.turns:
-                x, y = place - self.before[name][:2]
+                x, y = place - before[name][0, :2]
                 turn = x * push[1] - y * push[0]
                 arm = max(self.size.m, 1e-300)
                 yield abs(body.moment * jump[OMEGA] - turn) / (size * arm)
@@ -299,7 +315,7 @@ class _Blow:
             if side.contact is None:
                 yield abs(rubbed) / size
                 continue
-            slip = float(side.contact.observe(self._moved(self.after), "slip")[2])
+            slip = float(side.contact.observe(self.after, "slip")[0])
             bound = side.contact.kinetic * pressed
             if abs(slip) > NEAR * self.size.speed:
                 yield abs(rubbed + np.sign(slip) * bound) / size
@@ -310,21 +326,14 @@ class _Blow:
 def _where(side: Side, here: Motion) -> tuple[Array, Array]:
     """Where it touches, and the normal to the first of its bodies."""
     if (rope := side.rope) is not None:
-        first, second = (here.point(at)[2, :2] for at in (rope.a, rope.b))
+        first, second = (here.point(at)[0, :2] for at in (rope.a, rope.b))
         if side.bodies[0] != rope.a.body:
             first, second = second, first
         return first, (second - first) / np.linalg.norm(second - first)
     one = side.contact
     assert one is not None
     if isinstance(one, Pair):
-        return one.place(here)[2], one.normal_and_gap(here)[0][2]
+        return one.place(here)[0], one.normal_and_gap(here)[0][0]
     normal = np.array(one.plane.normal)
     radius = here.bodies[one.body].radius or 0.0
-    return here.point(one.at)[2, :2] - radius * normal, normal
-
-
-def _along(state: Array, times: Array) -> Array:
-    """(N, 6) states that go on from one with its velocities; in space nothing is struck."""
-    rows = np.tile(state, (len(times), 1))
-    rows[:, : ANGLE + 1] += times[:, None] * state[VX:]
-    return rows
+    return here.point(one.at)[0, :2] - radius * normal, normal
