@@ -27,7 +27,8 @@ from .reading import Size
 
 FORCES = 1e-9  # of the largest of a side: friction's is a product, and what is more is no rounding
 BLOWS = 1e-9  # of the motion's speed: rates are those of states that the events end, to 1e-12
-NEAR = 1e-8  # of the motion's size: what is nearer touches
+SLOW = 1e-8  # of the motion's speed: a slip that is less sticks but for rounding
+NEAR = 1e-10  # of the motion's size: what is nearer touches, for whoever asks
 LEAST = 1e-6  # of what would stop the heaviest body in the duration: less force is rounding's
 
 
@@ -173,10 +174,15 @@ class _Rubbing:
         slip, force, low, high, moving = self.bounds(seen)
         fast = size.rate if isinstance(self.parts[0], Joint) and self.parts[0].turns else size.speed
         at_rest = np.abs(force - np.clip(force, low, high))
-        return np.where(np.abs(slip) > NEAR * fast, np.abs(force - moving), at_rest)
+        return np.where(np.abs(slip) > SLOW * fast, np.abs(force - moving), at_rest)
 
     def at(self, before: Motion, change: Change, size: Size) -> float:
-        """Returns that where a mode ends, or how far what breaks loose there was from its bound."""
+        """Returns that where a mode ends, or how far what breaks loose there was from its bound.
+
+        Nothing at a corner of a law: forces are told there as they are behind it.
+        """
+        if change.guard is None:
+            return 0.0
         if any(not {*_forces(one)} <= before.trajectory.reactions.keys() for one in self.parts):
             return 0.0
         off = worst(self.off(before, size))
@@ -317,7 +323,7 @@ class _Blow:
                 continue
             slip = float(side.contact.observe(self.after, "slip")[0])
             bound = side.contact.kinetic * pressed
-            if abs(slip) > NEAR * self.size.speed:
+            if abs(slip) > SLOW * self.size.speed:
                 yield abs(rubbed + np.sign(slip) * bound) / size
             elif not (isinstance(side.contact, Contact) and side.contact.ideal):
                 yield max(0.0, abs(rubbed) - bound) / size

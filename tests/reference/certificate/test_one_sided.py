@@ -100,7 +100,33 @@ scene:
 initial: {b: {x: 0, vx: 1}}
 allow: {b.x: 1.0e-3}
 """
+LIFTED = """\
+scene:
+  gravity: 10.0
+  bodies: {b: {particle: {mass: 1.0}}}
+  contacts: {f: {between: [b, ground.floor], friction: {static: 0.6, kinetic: 0.5}}}
+  forces: {p: {push: b.center, pulse: {amplitude: [2.0, 20.0], from: 0.2, until: 0.4}}}
+events: {l: {f.gap: falls to zero}}
+initial: {b: {x: 0, y: 0, vx: 0, vy: 0}}
+allow: {b.x: 1.0}
+"""
+NEARLY = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {thigh: {bar: {mass: 1.0, length: 0.5}}, shank: {bar: {mass: 1.0, length: 0.5}}}
+  joints: {knee: {pin: [thigh.end, shank.start]}}
+  contacts: {foot: {between: [shank.end, ground.floor], friction: 0, restitution: 0.5}}
+  forces:
+    straight: {stops: knee, high: 0}
+    q: {couple: [thigh, shank], constant: -1.0e-9}
+events: {lands: {foot.gap: falls to zero}}
+initial:
+  thigh: {end: [0, 1.0], angle: -60 deg, omega: 0}
+  shank: {angle: -60 deg, omega: 0, vx: 0, vy: 0}
+allow: {thigh.omega: 1.0e-3}
+"""
 SCENES = {
+    "a pulse that lifts": LIFTED, "a stop that nearly touches": NEARLY,
     "stops between two bodies": TWO_STOPS, "a rope": ROPE,
     "a disk that bounces": BOUNCE, "a disk on a face": ON_A_FACE, "a blow on a face": STRIKES,
     "what breaks loose": LOOSE, "a rail that rubs": RAIL,
