@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...cases.case import Case
-from ...cases.scene import Contact, Joint, Limit, Scene
-from ...cases.scene.forces.limit import Rope
+from ...cases.scene import Anchor, Contact, Joint, Limit, Scene
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of
 from ...cases.scene.pair import Pair
@@ -48,7 +47,7 @@ class Side:
     rate: Callable[[Motion], Array]
     bodies: tuple[str, ...]
     contact: Contact | Pair | None = None
-    rope: Rope | None = None
+    line: tuple[Anchor, ...] = ()  # the ends of a rope
 
     def on(self, motion: Motion) -> NDArray[np.bool_]:
         """(N,) whether it could be touched: not beside a face, nor where a foot swings through."""
@@ -69,13 +68,13 @@ def sides(scene: Scene) -> Iterator[Side]:
                 one.name, push, "m", one.restitution, gap, partial(_opens, one), bodies, contact=one
             )
     for limit in scene.limits():
-        rope = limit if isinstance(limit, Rope) else None
-        ends = tuple(at.body for at in limit.refers() if at.body in scene.bodies)
+        line = limit.refers()  # of a rope; a stop has a joint
+        ends = tuple(at.body for at in line if at.body in scene.bodies)
         for k, side in enumerate(limit.sides):
-            unit = "m" if rope else "rad"
+            unit = "m" if line else "rad"
             name = f"{limit.name}.{side}"
             gap, rate = partial(_left, limit, k), partial(_grows, limit, side)
-            yield Side(name, name, unit, limit.back, gap, rate, ends, rope=rope)
+            yield Side(name, name, unit, limit.back, gap, rate, ends, line=line)
 
 
 def _opens(one: Contact | Pair, motion: Motion) -> Array:
@@ -90,10 +89,7 @@ def _left(limit: Limit, k: int, motion: Motion) -> Array:
 
 
 def _grows(limit: Limit, side: str, motion: Motion) -> Array:
-    if isinstance(limit, Rope):
-        return -motion.line(limit.a, limit.b)[1]
-    assert limit.about is not None
-    return limit.sides[side][0] * motion.turn(limit.about, limit.turn)[1]
+    return limit.sides[side][0] * limit.rate(motion)
 
 
 def one_sided_checks(
@@ -331,9 +327,9 @@ class _Blow:
 
 def _where(side: Side, here: Motion) -> tuple[Array, Array]:
     """Where it touches, and the normal to the first of its bodies."""
-    if (rope := side.rope) is not None:
-        first, second = (here.point(at)[0, :2] for at in (rope.a, rope.b))
-        if side.bodies[0] != rope.a.body:
+    if side.line:
+        first, second = (here.point(at)[0, :2] for at in side.line)
+        if side.bodies[0] != side.line[0].body:
             first, second = second, first
         return first, (second - first) / np.linalg.norm(second - first)
     one = side.contact

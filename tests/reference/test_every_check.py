@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[2]
 MUTANT, TOLD = "pytest.mark.mutant", ("raises", "refused", "what.startswith", "mistake")
 
 BOTH = "certificate/test_two_answers.py::test_a_mistake_in_either_answer_is_seen"
+OF_ONE_SIDE = "certificate/test_one_sided.py::test_what_all_answers_share_is_seen"
 TOLD_BY_FILE = "certificate/test_as_the_file_says.py::test_what_all_answers_share_is_seen"
 NEAREST = "certificate/test_as_the_file_says.py::test_the_other_way_is_seen"
 OF_STATES = "certificate/test_parts.py::test_a_check_of_states_fails_by_itself"
@@ -43,6 +44,10 @@ CHECKS = {
     "'forces follow their laws'": TOLD_BY_FILE,
     "'joints hold'": TOLD_BY_FILE,
     "'nothing slips'": TOLD_BY_FILE,
+    "'nothing passes what holds it'": OF_ONE_SIDE,
+    "'what presses touches'": OF_ONE_SIDE,
+    '"friction is the file\'s"': OF_ONE_SIDE,
+    '"blows are the file\'s"': OF_ONE_SIDE,
     "NAME": "test_determined.py::test_what_is_open_and_is_taken_for_one_value_fails_by_itself",
     "'generated states'": "states/test_answer.py::test_a_mistake_in_a_law_is_seen",
     "'joints hold (2.10), (2.15)'": OF_STATES,

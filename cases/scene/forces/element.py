@@ -130,3 +130,7 @@ class Limit(Force):
         """Yields for each side how far (N,) it is from its end, below zero where it is passed."""
         at = self.observe(motion, self.measured)
         return (sense * (at - end) for sense, end in self.sides.values())
+
+    def rate(self, motion: Motion) -> Array:
+        """(N,) how fast [m/s or rad/s] what is measured grows."""
+        raise NotImplementedError

@@ -52,6 +52,10 @@ class Rope(Limit):
         length, _ = motion.line(self.a, self.b)
         return {"length": length, "gap": self.length - length}[field]
 
+    def rate(self, motion: Motion) -> Array:
+        """(N,) how fast [m/s] its ends part along it."""
+        return motion.line(self.a, self.b)[1]
+
     def numbers(self) -> dict[str, float]:
         """L."""
         return {"length": self.length}
@@ -105,6 +109,10 @@ class Stops(Limit, Turning):
         for side, (sense, _) in self.sides.items():
             total = total + sense * motion.reaction(f"{self.name}.{side}")
         return total
+
+    def rate(self, motion: Motion) -> Array:
+        """(N,) how fast [rad/s] the second part turns against the first."""
+        return motion.turn(self.about, self.turn)[1]
 
     def numbers(self) -> dict[str, float]:
         """Where they are."""

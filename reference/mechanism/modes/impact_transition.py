@@ -186,7 +186,7 @@ def check_alone(
         e
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
         if _shares(first, e, state)
-        if state != "open" or _touches(e, t, q, size)
+        if state != "open" or (_touches(e, t, q, size) and rate(e.normal, t, q, v) <= small)
     ]
     if not others:
         return

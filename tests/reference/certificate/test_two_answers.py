@@ -214,6 +214,10 @@ OF_ONE_ANSWER = {
     "forces follow their laws",
     "joints hold",
     "nothing slips",
+    "nothing passes what holds it",
+    "what presses touches",
+    "friction is the file's",
+    "blows are the file's",
     "starts as it is given",
     "starts near what is said",
     "forces determined",  # tests/reference/test_determined.py

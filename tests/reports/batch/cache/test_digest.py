@@ -40,7 +40,9 @@ def test_an_engine_in_front_of_the_installed_one_is_that_one(
     monkeypatch.setattr(key, "BEGUN", math.inf)
     installed = word(memo, pymunk)
     space = copied(tmp_path)
-    monkeypatch.setattr(importlib.import_module("pymunk"), "__path__", [str(space.parent)])
+    module = importlib.import_module("pymunk")
+    monkeypatch.setattr(module, "__path__", [str(space.parent)])
+    monkeypatch.setattr(module, "__file__", str(space.with_name("__init__.py")))
     assert word(memo, pymunk) == installed  # the same content
     text = space.read_text(encoding="utf-8")
     space.write_text(
