@@ -186,7 +186,7 @@ def check_alone(
         e
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
         if _shares(first, e, state)
-        if state != "open" or (_touches(e, t, q, size) and rate(e.normal, t, q, v) <= small)
+        if state != "open" or _touches(e, t, q, v, size)
     ]
     if not others:
         return
@@ -223,10 +223,11 @@ def strikes_too(e: Element, t: float, q: Array, v: Array, size: float) -> bool:
     """Whether an open contact closes at this instant as well, in a scene of that size [m]."""
     assert e.normal is not None
     small = ROUNDING * float(np.max(np.abs(v)))
-    return _touches(e, t, q, size) and rate(e.normal, t, q, v) < -small
+    return _touches(e, t, q, v, size) and rate(e.normal, t, q, v) < -small
 
 
-def _touches(e: Element, t: float, q: Array, size: float) -> bool:
-    """Whether its gap is none: what bears no force is open, and rounding may say so or not."""
+def _touches(e: Element, t: float, q: Array, v: Array, size: float) -> bool:
+    """Whether its gap is none and does not open: without a force rounding may call it open."""
     assert e.normal is not None
-    return bool(e.normal.f(t, q.tolist())[0] <= e.near(size))
+    small = ROUNDING * float(np.max(np.abs(v)))
+    return e.normal.f(t, q.tolist())[0] <= e.near(size) and rate(e.normal, t, q, v) <= small
