@@ -210,9 +210,9 @@ def advise(
     from .batch.request import asked
 
     _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
-    if not isinstance(word, str | Path | Case) and not [*word]:
+    if not (words := _listed("cases", word, (str, Path, Case))):
         raise CaseError([Mistake("cases", 0, 0, "", "none is named: all of them take very long")])
-    wanted = asked(load(word), _listed("engines", engines, (str,)), ["shipped"])
+    wanted = asked(load(words), _listed("engines", engines, (str,)), ["shipped"])
     bar = Asked(tolerance, margin)
     store = usable() if cache else None
     with (

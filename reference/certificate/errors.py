@@ -12,6 +12,7 @@ from ...cases.scene.difference import apart
 from ...cases.scene.observe import observe
 from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
+from ..motion.zeno import left
 from .agreement import Check, worst
 from .event_time_error import unread
 
@@ -61,11 +62,7 @@ def errors(
 
 def _piled(endless: Sequence[Array]) -> float:
     """How long [s] after the last of a pile that was followed its limit may be."""
-    rest = 0.0
-    for pile in endless:
-        two, one = np.diff(pile[-3:]).tolist()
-        rest = max(rest, one * one / (two - one))
-    return rest
+    return max(map(left, endless), default=0.0)
 
 
 def _unread(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:

@@ -20,6 +20,7 @@ from ...cases.scene.pair import Pair
 from ...cases.trajectory import OMEGA, VX, Array, Trajectory
 from ..motion.bodies import Answer
 from ..motion.follow import Change
+from ..motion.zeno import left
 from ..system import instant
 from .agreement import Check, worst
 from .reading import Size
@@ -62,11 +63,8 @@ def sides(scene: Scene) -> Iterator[Side]:
     for one in (*scene.touching.values(), *scene.pairs.values()):
         if one.switches:
             bodies = tuple(at.body for at in one.refers()[: 2 if isinstance(one, Pair) else 1])
-            gap = lambda motion, one=one: one.observe(motion, "gap")  # noqa: E731
-            push = f"{one.name}.normal"
-            yield Side(
-                one.name, push, "m", one.restitution, gap, partial(_opens, one), bodies, contact=one
-            )
+            push, gap, rate = f"{one.name}.normal", partial(_apart, one), partial(_opens, one)
+            yield Side(one.name, push, "m", one.restitution, gap, rate, bodies, contact=one)
     for limit in scene.limits():
         line = limit.refers()  # of a rope; a stop has a joint
         ends = tuple(at.body for at in line if at.body in scene.bodies)
@@ -75,6 +73,10 @@ def sides(scene: Scene) -> Iterator[Side]:
             name = f"{limit.name}.{side}"
             gap, rate = partial(_left, limit, k), partial(_grows, limit, side)
             yield Side(name, name, unit, limit.back, gap, rate, ends, line=line)
+
+
+def _apart(one: Contact | Pair, motion: Motion) -> Array:
+    return one.observe(motion, "gap")
 
 
 def _opens(one: Contact | Pair, motion: Motion) -> Array:
@@ -243,10 +245,8 @@ def _at_once(case: Case, changes: Sequence[Change]) -> Iterator[tuple[Change, Ch
 
 
 def _span(pile: Array) -> tuple[float, float]:
-    """From the last blow that was followed of a pile to well behind its limit [s]."""
-    two, one = np.diff(pile[-3:]).tolist()
-    last = float(pile[-1])
-    return last - one, last + 2.0 * one * one / (two - one)
+    """From the last blow but one that was followed of a pile to well behind its limit [s]."""
+    return float(pile[-2]), float(pile[-1]) + 2.0 * left(pile)
 
 
 @dataclass(frozen=True)
@@ -310,8 +310,7 @@ class _Blow:
             if body.turns:
                 x, y = place - before[name][0, :2]
                 turn = x * push[1] - y * push[0]
-                arm = max(self.size.m, 1e-300)
-                yield abs(body.moment * jump[OMEGA] - turn) / (size * arm)
+                yield abs(body.moment * jump[OMEGA] - turn) / (size * (self.size.m or 1.0))
             pressed, rubbed = sign * float(push @ normal), sign * float(push @ along)
             yield max(0.0, -pressed) / size
             if side.contact is None:

@@ -71,6 +71,13 @@ def pile(instants: Sequence[float]) -> Array:
     return np.array(instants[int(longer[-1]) + 1 if len(longer) else 0 :], dtype=np.float64)
 
 
+def left(pile: Array) -> float:
+    """How long [s] after the last of a pile its limit is, by the last two distances' ratio."""
+    two, one = np.diff(pile[-3:]).tolist()
+    rest: float = one * one / (two - one)
+    return rest
+
+
 def ends_here(limit: float, t: float, begin: float, end: float) -> bool:
     """Whether an accumulation at `limit` ends the motion that stands at t, before its end."""
     return limit <= end and limit - t <= NEAR * (end - begin)

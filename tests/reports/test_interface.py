@@ -227,6 +227,9 @@ def test_what_there_is_not_is_an_attribute_error() -> None:
         _ = textmech.reports.sovle
 
 
-def test_no_case_is_not_all_of_them() -> None:
-    with pytest.raises(CaseError, match="cases: none is named"):
-        advise([])
+@pytest.mark.parametrize(
+    ("given", "said"), [([], "none is named"), (None, "should"), (5, "should")]
+)
+def test_no_case_is_not_all_of_them(given: Any, said: str) -> None:
+    with pytest.raises(CaseError, match=f"cases: {said}"):
+        advise(given)

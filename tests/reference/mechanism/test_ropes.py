@@ -118,7 +118,11 @@ def test_an_impact_that_throws_back_is_seen(
 @pytest.mark.slow
 @pytest.mark.mutant("a limit that nothing keeps, taken for the end of the motion")
 def test_a_rope_and_a_stop_that_strike_in_turn_pile_up(tmp_path: Path) -> None:
-    """A rope that is taut, or as good as that, passes on what the stop throws back."""
+    """While the bar still flies to its stop the rope's blows have no limit to go on from.
+
+    They are refused where rounding no longer tells which of both strikes; with a limit taken for
+    one they go on to a blow of the rope.
+    """
     text = """\
 scene:
   points: {O: [0, 1.2]}
