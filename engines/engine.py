@@ -183,6 +183,10 @@ class Claims(Protocol):
         ...
 
 
+Cost = Callable[[Options, float], float]
+"""A number above 0 for own options and a step [s]: twice as large, a run takes twice as long."""
+
+
 @runtime_checkable
 class Tunable(Protocol):
     """An optional extension of the protocol: which options of the engine to tune, and at what cost.
@@ -201,8 +205,8 @@ class Tunable(Protocol):
         """The tuned setting's native way, as own options: with them the same numbers are run."""
         ...
 
-    def cost(self, options: Options, step: float, scene: Scene) -> float:
-        """The cost of a simulated second at the step [s], to compare options with: no seconds."""
+    def cost(self, scene: Scene, start: Start) -> Cost:
+        """The cost of a simulated second by options and step [s], to compare them: no seconds."""
         ...
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:

@@ -11,7 +11,7 @@ import mujoco
 from ...cases.scene import Scene
 from ...cases.scene.frame import PLANE
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plan, Realised, Refusal, Start
+from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
@@ -108,9 +108,9 @@ class MuJoCo:
         scene, start = with_rods(scene, start)
         return as_options(settings.best(scene, start), settled=closed(scene, start))
 
-    def cost(self, options: Options, step: float, scene: Scene) -> float:
+    def cost(self, scene: Scene, start: Start) -> Cost:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
-        return cost(options, step)
+        return cost
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Elements of an MJCF file in which geoms touch, as users write them."""

@@ -9,7 +9,7 @@ import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Plan, Realised, Refusal, Start
+from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
 from .adapter import plans
@@ -24,7 +24,7 @@ from .read.measure import measured
 from .read.record import Record
 from .read.samples import sampled
 from .settings import options
-from .settings.knobs import STEPS, knobs
+from .settings.knobs import STEPS, cost, knobs
 from .settings.recipe import recipe
 from .settings.settings import SHIPPED_STEP
 from .settings.snippet import snippet
@@ -89,9 +89,9 @@ class Pymunk:
         """See `Tunable`."""
         return as_options(scene, start)
 
-    def cost(self, options: Options, step: float, scene: Scene) -> float:
-        """Steps in a simulated second: sweeps cost next to nothing beside the rest of a step."""
-        return 1 / step
+    def cost(self, scene: Scene, start: Start) -> Cost:
+        """See `Tunable`."""
+        return cost(scene, start)
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Lines of Python for a script with a `space`, as users write it."""

@@ -8,7 +8,7 @@ from given.planning import NATIVE, begun, pair, planned
 from given.scenes import SHIPPED
 
 from textmech import engines
-from textmech.engines.engine import Engine, Tunable
+from textmech.engines.engine import Engine, Plan, Tunable
 from textmech.engines.knobs import Knob, as_text, merged, short_value
 from textmech.reports.data.user_settings import read_settings
 
@@ -108,11 +108,28 @@ def test_steps_and_costs(name: str) -> None:
     assert isinstance(engine, Tunable)
     assert engine.own_step in engine.steps
     assert list(engine.steps) == sorted(engine.steps, reverse=True)
-    scene, _ = begun("bar_pendulum")
-    assert [engine.cost({}, h, scene) for h in (0.01, 0.005)] == [100.0, 200.0]
-    stages = {"mujoco": ({"integrator": "RK4"}, 400.0), "pymunk": ({"iterations": 100}, 100.0)}
-    options, cost = stages[name]
-    assert engine.cost(options, 0.01, scene) == cost
+    cost = engine.cost(*begun("bar_pendulum"))
+    assert [cost({}, h) for h in (0.01, 0.005)] == [100.0, 200.0]
+    # a call, a body and a joint: 106 and its sweeps, ten of them as shipped
+    dearer = {"mujoco": ({"integrator": "RK4"}, 4.0), "pymunk": ({"iterations": 68}, 1.5)}
+    options, times = dearer[name]
+    assert cost(options, 0.01) == pytest.approx(100.0 * times)
+
+
+def test_sweeps_cost_by_what_they_sweep_over() -> None:
+    """As many as the scene needs cost what that number does, and a contact what two joints do."""
+    scene, start = begun("heavy_on_light")
+    tuned, engine = (engines.make("pymunk", setting) for setting in ("tuned", "shipped"))
+    assert isinstance(engine, Tunable)
+    (way,) = (one for one in tuned.plans(scene, start) if one.realised == "native")
+    assert isinstance(way, Plan)
+    needed = next(c.value for c in way.choices(0.01) if c.name == "space.iterations")
+    cost = engine.cost(scene, start)
+    assert needed > 100
+    assert cost({"iterations": "scene"}, 0.01) == cost({"iterations": needed}, 0.01)
+    # a call, two bodies, and four contacts: 112 and eight for each sweep
+    assert cost({"iterations": 34}, 0.01) == pytest.approx(200.0)
+    assert cost({"start_iterations": "scene"}, 0.01) == 100.0
 
 
 def test_groups_are_merged_key_by_key() -> None:

@@ -110,7 +110,7 @@ class Tuned:
         return self.knobs_
 
     def cost(self, *_: Any) -> Any:
-        return self.cost_
+        return self.cost_ if self.cost_ is None else lambda *_: self.cost_
 
     def snippet(self, *_: Any) -> Any:
         return self.snippet_
@@ -129,6 +129,7 @@ def test_sound_words_on_tuning_are_believed() -> None:
         ({"recipe_": {"a": object()}}, "recipe should be options"),
         ({"knobs_": None}, "knobs should be a list of knobs, is None"),
         ({"knobs_": ["sweeps"]}, "knobs should be a list of knobs"),
+        ({"cost_": None}, "cost should be a function of options and a step, is None"),
         ({"cost_": "1"}, "cost should be a number above 0"),
         ({"cost_": float("nan")}, "cost should be a number above 0, is nan"),
         ({"cost_": -1.0}, "cost should be a number above 0"),

@@ -143,8 +143,10 @@ def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
     menu = Menu([knob for knob in knobs if knob.kind != "ours"], steps, own, tuned, withheld)
     bar = Bar(Known(), asked.margin, _scale(Trial(case, reference, engine, way), asked.tolerance))
 
+    dear = engine.cost(case.scene, start)
+
     def cost(candidate: Candidate) -> float:
-        return engine.cost(candidate.options, candidate.step, case.scene)
+        return dear(candidate.options, candidate.step)
 
     return Advised(pair, asked, way, Kitchen(menu, bar, cost), None)
 

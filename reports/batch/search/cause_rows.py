@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import takewhile
 
-from ....engines.engine import Tunable
+from ....engines.engine import Cost, Tunable
 from ....engines.knobs import Options, as_text
+from ...compare.trial.start import first
 from ...data.row import Cause, Comparison, StepError, as_written
 from ..tasks import Pair
 from .candidate import Candidate
@@ -28,10 +30,14 @@ class Asked:
 
     def cost(self, candidate: Candidate) -> float:
         """Over that of the rows' own setting."""
-        engine, scene = self.pair.engine, self.pair.case.scene
+        base = self._cost(self.field.base.options, self.field.base.step)
+        return self._cost(candidate.options, candidate.step) / base
+
+    @cached_property
+    def _cost(self) -> Cost:
+        engine = self.pair.engine
         assert isinstance(engine, Tunable)
-        base = engine.cost(self.field.base.options, self.field.base.step, scene)
-        return engine.cost(candidate.options, candidate.step, scene) / base
+        return engine.cost(self.pair.case.scene, first(self.pair.reference()))
 
 
 def searched(asked: Asked, row: Comparison, cured: Cured) -> list[Cause]:

@@ -156,8 +156,11 @@ def tunable(engine: Tunable, scene: Scene, start: Start) -> Options:
         raise BadAnswer(f"recipe should be options as a file has them, is {_kind(options)}")
     if not isinstance(knobs, Sequence) or not all(isinstance(knob, Knob) for knob in knobs):
         raise BadAnswer(f"knobs should be a list of knobs, is {_kind(knobs)}")
+    dear: Any = engine.cost(scene, start)
+    if not callable(dear):
+        raise BadAnswer(f"cost should be a function of options and a step, is {_kind(dear)}")
     for step in engine.steps:
-        cost: Any = engine.cost(options, step, scene)
+        cost: Any = dear(options, step)
         if not isinstance(cost, Real) or not 0.0 < float(cost) < math.inf:
             raise BadAnswer(f"cost should be a number above 0, is {spelled(repr(cost), 50)}")
         text: Any = engine.snippet(scene, start, options, step)

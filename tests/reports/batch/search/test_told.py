@@ -65,8 +65,8 @@ def test_options_are_all_that_a_file_of_settings_needs(pair: Pair) -> None:
     [
         (
             "cost upside down",
-            "engine.cost(candidate.options, candidate.step, scene) / base",
-            "base / engine.cost(candidate.options, candidate.step, scene)",
+            "self._cost(candidate.options, candidate.step) / base",
+            "base / self._cost(candidate.options, candidate.step)",
         ),
         ("place by how dear it is", "asked.cost(cure.candidate))\n    return",
          "-asked.cost(cure.candidate))\n    return"),
@@ -82,7 +82,8 @@ def test_the_cheapest_cure_is_first_with_its_cost_over_the_rows_own(
 @pytest.fixture(scope="module")
 def found(pair: Pair) -> Advised:
     """RK4 at half of its own step: eight times as dear as shipped."""
-    cost = lambda c: pair.engine.cost(c.options, c.step, pair.case.scene)  # type: ignore[attr-defined]  # noqa: E731
+    dear = pair.engine.cost(pair.case.scene, first(pair.reference()))  # type: ignore[attr-defined]
+    cost = lambda c: dear(c.options, c.step)  # noqa: E731
     half = Recipe(Choice(("RK4",), {"integrator": "RK4"}), OWN / 2)
     known = {SHIPPED: {"x": (9.0, 9.0)}, half.candidate: {"x": (0.25, 0.25)}}
     kitchen = Kitchen(Menu([], [OWN, OWN / 2], OWN, {}), Bar(known, 2.0), cost)  # type: ignore[arg-type]
