@@ -1,5 +1,6 @@
 """A case file → its cases, one for each variant, or all of its mistakes at once."""
 
+import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path as FilePath
@@ -38,7 +39,7 @@ def load(
     if not long and (what := too_many_variants(document.data)):  # before any is even looked at
         raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document)
-    mistakes = [*misnamed(path), *document.mistakes, *mistakes]
+    mistakes = [*misnamed(path), *document.mistakes, *mistakes, *_hidden(document, variants)]
     found: dict[str, list[Mistake]] = {}
     cases: list[Case] = []
     for variant, (data, source) in variants.items():
@@ -124,6 +125,39 @@ def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
         both = isinstance(old, dict) and isinstance(value, dict)
         merged[key] = _merged(old, value) if both else value  # type: ignore[arg-type]
     return merged
+
+
+def _hidden(
+    document: Document, variants: Mapping[str, tuple[dict[str, Any], Source]]
+) -> Iterator[Mistake]:
+    """Mistakes of form in what every variant replaces, which none of them would show.
+
+    Read with the first variant around them: units, names and `space` may be its own.
+    """
+    first, *others = (data for data, _ in variants.values())
+    replaced = {
+        path: value
+        for path, value in _leaves({k: v for k, v in document.data.items() if k != "variants"})
+        if all(_at(data, path) is not value for data in (first, *others))
+    }
+    whole = first
+    for path, value in replaced.items():
+        whole = _merged(whole, functools.reduce(lambda x, key: {key: x}, reversed(path), value))
+    for where, what in parse(whole).findings if replaced else ():
+        if what != NO_VALUE and any(where[: len(path)] == path for path in replaced):
+            yield document.source.mistake(where, f"{what} (the base's; each variant replaces it)")
+
+
+def _leaves(data: Mapping[str, Any], path: Path = ()) -> Iterator[tuple[Path, Any]]:
+    for key, value in data.items():
+        inner = isinstance(value, dict)
+        yield from _leaves(value, (*path, key)) if inner else [((*path, key), value)]
+
+
+def _at(data: Any, path: Path) -> Any:
+    for key in path:
+        data = data.get(key) if isinstance(data, dict) else None
+    return data
 
 
 def _places(source: Source, path: Path) -> Source:

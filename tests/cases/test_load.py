@@ -65,6 +65,34 @@ def test_four_bar() -> None:
     assert case.deviates["mujoco.shipped"]["crank.angle"].limit == 0.27
 
 
+def test_what_every_variant_replaces_is_read_too(tmp_path: Path) -> None:
+    """No variant shows it; what one of them leaves as it is, is said once and as its own."""
+    path = tmp_path / "fall.yaml"
+    path.write_text(
+        """title: A fall
+source: {section: "2"}
+scene: {bodies: {ball: {particle: {mass: banana}}}}
+initial: {ball: {x: 0, y: 1 kg}}
+duration: soon
+samples: 11
+allow: {ball.y: 1e-3 kg}
+variants:
+  light: {scene: {bodies: {ball: {particle: {mass: 1}}}}, initial: {ball: {y: 1}}, duration: 1}
+  heavy: {scene: {bodies: {ball: {particle: {mass: 2}}}}, initial: {ball: {y: 1}}}
+"""
+    )
+    with pytest.raises(CaseError) as caught:
+        load(path)
+    found = {(m.line, m.where): m.what for m in caught.value.mistakes}
+    hidden = {
+        field
+        for (_, field), what in found.items()
+        if what.endswith("(the base's; each variant replaces it)")
+    }
+    assert hidden == {"scene.bodies.ball.particle.mass", "initial.ball.y"}
+    assert "variant 'heavy'" in found[5, "duration"]
+
+
 def test_variants() -> None:
     pushed, downhill = cases_of("rolling_wheel")
     assert (pushed.name, downhill.name) == ("rolling_wheel.pushed", "rolling_wheel.downhill")
