@@ -167,7 +167,8 @@ class PlanarMechanism(Mechanism):
             return
         if isinstance(e, OneSided):
             ends = lambda t, q, v: e.ends(state, t, q)  # noqa: E731
-            yield Guard(f"{e.name} {HAPPENS[state]}", ends, self._to(mode, i, (OTHER[state],)))
+            then, name = self._to(mode, i, (OTHER[state],)), f"{e.name} {HAPPENS[state]}"
+            yield Guard(name, ends, then, rounds=self._rounds)  # a rope may hold its length
             return
         if (normal := e.normal) is not None:
             if state == "open":

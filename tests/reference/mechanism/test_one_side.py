@@ -204,6 +204,32 @@ def test_beside_a_contact(tmp_path: Path) -> None:
     assert slack == 0.0
 
 
+HELD = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {bob: {particle: {mass: 2}}}
+  forces:
+    cord: {rope: [ground.O, bob.center], length: 1.25}
+    band: {spring: [ground.O, bob.center], stiffness: 30, rest_length: 1.25, only: tension}
+initial: {bob: {x: 0.05, y: -0.2, vx: 0, vy: 0}}
+allow: {bob.x: 1.0e-3, bob.y: 1.0e-3}
+"""
+
+
+@pytest.mark.slow
+def test_beside_a_rope_that_holds_its_length(tmp_path: Path) -> None:
+    """Rounding of a length that is held neither tightens nor slackens: the rope swings alone."""
+    case = scenes.typed(tmp_path, HELD, tail=scenes.tail(2.0, 41))
+    solution = solve(case)
+    assert solution.holds
+    assert solution.trajectory.switches.size == 1
+    alone = HELD.replace("    band: {spring", "    # {spring")
+    other = solve(scenes.typed(tmp_path, alone, tail=scenes.tail(2.0, 41)))
+    for name in ("bob.x", "bob.y"):
+        x, y = (observe(case.scene, one.trajectory, name) for one in (solution, other))
+        assert x == pytest.approx(y, abs=1e-9)
+
+
 @pytest.mark.slow
 @pytest.mark.mutant(
     "a leg that only presses on the other side of its rest length", "a leg that never lets go"
