@@ -3,6 +3,8 @@
 An engine's package is imported when the engine is asked for, and not before.
 """
 
+import os
+import sys
 from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, entry_points
@@ -28,6 +30,11 @@ def names() -> tuple[str, ...]:
 def foreign(name: str) -> bool:
     """Whether it is somebody else's, and may do anything."""
     return name in _found() and not _found()[name].value.startswith(f"{__name__}.")
+
+
+def guest(engine: Engine) -> str:
+    """Its name if it is somebody else's, which may leave anything behind in its process."""
+    return engine.name if foreign(engine.name) else ""
 
 
 def settings(name: str) -> tuple[str, ...]:
@@ -101,7 +108,11 @@ def _found() -> Mapping[str, EntryPoint]:
 def _maker(name: str) -> Maker:
     point = _found()[name]
     why = why_not(point, SETTINGS) if foreign(name) else ""
+    before, depth = _folder(), sys.getrecursionlimit()
     maker, error = (None, None) if why else guarded(point.load)
+    if before is not None and foreign(name):  # what it changes here would change what is asked for
+        os.chdir(before)
+        sys.setrecursionlimit(depth)
     if why or error is not None:
         why = why or error_text(error)
         raise Broken(f"{name} ({point.value}) cannot be imported: {why}") from error
@@ -111,3 +122,11 @@ def _maker(name: str) -> Maker:
         what = f"its `offers` should be a tuple of {' and '.join(SETTINGS)}, is {offers!r}"
         raise Broken(f"{name} ({point.value}) is no engine: {what}")
     return cast(Maker, maker)
+
+
+def _folder() -> str | None:
+    """The working folder; None where it is gone."""
+    try:
+        return os.getcwd()
+    except OSError:
+        return None

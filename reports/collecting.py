@@ -42,6 +42,11 @@ class _Asked:
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
 
     @property
+    def guest(self) -> str:
+        """The engine, if it is somebody else's: its process answers for nobody else then."""
+        return installed.guest(self.engine)
+
+    @property
     def limit(self) -> float:
         """How long the engine may take [s]."""
         return limit()

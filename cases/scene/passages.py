@@ -110,6 +110,12 @@ def _unbroken(times: Array, u: Array, corners: Sequence[float]) -> Iterator[tupl
     yield times[begin:], u[begin:]
 
 
+def leaps(times: Array, u: Array, corners: Sequence[float]) -> Iterator[tuple[float, float, float]]:
+    """When [s] u (N,) jumps at a corner, where it came to, and from where it goes on."""
+    for (before, came), (_, goes) in pairwise(_unbroken(times, u, corners)):
+        yield float(before[-1]), float(came[-1]), float(goes[0])
+
+
 def bent(times: Array, corners: Sequence[float]) -> list[int]:
     """The rows at corners; whatever steps to them ends there."""
     inside = [corner for corner in corners if times[0] < corner < times[-1]]

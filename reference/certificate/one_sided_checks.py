@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.scene import Anchor, Contact, Joint, Limit, Scene
+from ...cases.scene.forces.force import Spring, of
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of
 from ...cases.scene.pair import Pair
 from ...cases.trajectory import OMEGA, VX, Array, Trajectory
-from ..motion.bodies import Answer
+from ..motion.bodies import Answer, accelerations
 from ..motion.follow import Change
 from ..motion.zeno import left
 from ..system import instant
@@ -29,6 +30,7 @@ FORCES = 1e-9  # of the largest of a side: friction's is a product, and what is 
 BLOWS = 1e-9  # of the motion's speed: rates are those of states that the events end, to 1e-12
 SLOW = 1e-8  # of the motion's speed: a slip that is less sticks but for rounding
 NEAR = 1e-10  # of the motion's size: what is nearer touches, for whoever asks
+APART = 1e-8  # of it: what is further off does not touch, and strikes nothing
 LEAST = 1e-6  # of what would stop the heaviest body in the duration: less force is rounding's
 
 
@@ -62,7 +64,7 @@ def sides(scene: Scene) -> Iterator[Side]:
     """Yields each contact that may open, pair, rope, and stop of a joint."""
     for one in (*scene.touching.values(), *scene.pairs.values()):
         if one.switches:
-            bodies = tuple(at.body for at in one.refers()[: 2 if isinstance(one, Pair) else 1])
+            bodies = _on(one)
             push, gap, rate = f"{one.name}.normal", partial(_apart, one), partial(_opens, one)
             yield Side(one.name, push, "m", one.restitution, gap, rate, bodies, contact=one)
     for limit in scene.limits():
@@ -73,6 +75,11 @@ def sides(scene: Scene) -> Iterator[Side]:
             name = f"{limit.name}.{side}"
             gap, rate = partial(_left, limit, k), partial(_grows, limit, side)
             yield Side(name, name, unit, limit.back, gap, rate, ends, line=line)
+
+
+def _on(one: Contact | Pair) -> tuple[str, ...]:
+    """The bodies that it touches."""
+    return (one.body, one.touched) if isinstance(one, Pair) else (one.body,)
 
 
 def _apart(one: Contact | Pair, motion: Motion) -> Array:
@@ -109,6 +116,10 @@ def one_sided_checks(
         rubbed += [one.at(before, change, size) / one.largest for one in rubbing]
     if rubbed:
         yield Check("friction is the file's", worst(rubbed), FORCES)
+    if free := [*_told(case.scene, answer, motion)]:
+        yield Check("contacts move free bodies by (2.22)", worst(free), FORCES)
+    if ends := [*_at_their_length(scene, answer, size)]:
+        yield Check("springs act from their length on", worst(ends), BLOWS)
     if not every:
         return
     steps = motion_of(scene, marched)
@@ -124,6 +135,17 @@ def one_sided_checks(
         yield Check("blows are the file's", worst(told), BLOWS)
 
 
+def _at_their_length(scene: Scene, answer: Answer, size: Size) -> Iterator[float]:
+    """Yields how far springs of one side are from their rest length where that begins or ends."""
+    springs = {spring.name: spring for spring in of(Spring, scene.forces.values()) if spring.only}
+    for change in answer.followed.changes:
+        name, _, word = (change.name or "").rpartition(" ")
+        if name in springs and word in ("tightens", "slackens"):
+            before = _at(scene, answer, change.mode_before, change.time, change.before)
+            length, _ = before.line(springs[name].a, springs[name].b)
+            yield abs(float(length[0]) - springs[name].rest_length) / size.m
+
+
 def _pressing(known: list[Side], seen: Motion, size: Size) -> Iterator[float]:
     """Yields how far each that presses is from what it presses on; how much it pulls, as a part."""
     for side in known:
@@ -131,6 +153,98 @@ def _pressing(known: list[Side], seen: Motion, size: Size) -> Iterator[float]:
         largest = worst(np.abs(force)) or 1.0
         yield worst(np.abs(side.gap(seen))[force > FORCES * largest]) / size.of(side.unit)
         yield 0.0 if np.min(force) >= -FORCES * largest else worst(np.abs(force))
+
+
+# Where a contact acts on a body and in which directions, by how the body then accelerates.
+
+
+def _told(scene: Scene, answer: Answer, motion: Trajectory) -> Iterator[float]:
+    """Yields errors of m r̈ = ΣF and J φ̈ = ΣM of bodies that nothing holds but what they touch.
+
+    Of bodies on which no force acts that follows a velocity: theirs is not told by its power.
+    """
+    held = {at.body for joint in scene.joints.values() for at in joint.refers()}
+    held |= {edge.at.body for edge in scene.constraints.values()}
+    touching: list[Contact | Pair] = [*scene.touching.values(), *scene.pairs.values()]
+    for one in touching:
+        if any(name not in motion.reactions for name in _forces(one)):
+            held |= {*_on(one)}
+    told = {body for one in touching for body in _on(one)}
+    seen = motion_of(scene, motion)
+    if scene.inner() or not (free := sorted(told - held)):
+        return
+    acts = {body: _acting(scene, seen, body) for body in free}
+    moved = (
+        _accelerations(answer, motion) if any(each is not None for each in acts.values()) else {}
+    )
+    for name, acting in acts.items():
+        body = scene.bodies[name]
+        if acting is None:
+            continue
+        parts = [acting, *(_touch(one, seen, name) for one in touching if name in _on(one))]
+        force, turn = sum(part[:, :2] for part in parts), sum(part[:, 2] for part in parts)
+        wanted = np.stack([body.mass * moved[f"{name}.{field}"] for field in ("ax", "ay")], axis=1)
+        largest = max(worst(np.abs(part[:, :2]).ravel()) for part in parts)
+        largest = max(largest, worst(np.abs(wanted).ravel())) or 1.0
+        yield worst(np.abs(force - wanted).ravel()) / largest
+        if body.turns:
+            couple = body.moment * moved[f"{name}.alpha"]
+            most = max(worst(part[:, 3]) for part in parts)  # it may be nothing of it
+            yield worst(np.abs(turn - couple)) / (max(most, worst(np.abs(couple))) or 1.0)
+
+
+def _acting(scene: Scene, seen: Motion, name: str) -> Array | None:
+    """(N, 4) as `_touch` of all but contacts, by the power that they have of unit velocities of
+    that body alone; None where one follows its velocity."""
+    body, states = scene.bodies[name], seen.trajectory.states
+    found = np.zeros((len(seen.trajectory.times), 4))
+    found[:, :2] = body.mass * np.array(scene.gravity)
+    for force in scene.forces.values():
+        if name not in {at.body for at in force.refers()}:
+            continue
+        if not force.works or isinstance(force, Limit):
+            return None
+        for k in range(3):
+            ways = []
+            for sign in (1.0, -1.0):
+                slow = {each: rows.copy() for each, rows in states.items()}
+                for rows in slow.values():
+                    rows[:, VX : OMEGA + 1] = 0.0
+                slow[name][:, VX + k] = sign
+                ways.append(
+                    force.power(motion_of(scene, Trajectory(seen.trajectory.times, slow, {})))
+                )
+            if not np.array_equal(ways[0], -ways[1]):
+                return None
+            found[:, k] += ways[0]
+    found[:, 3] = np.abs(found[:, 2])
+    return found
+
+
+def _touch(one: Contact | Pair, seen: Motion, name: str) -> Array:
+    """(N, 4) force [N] and moment [N m] of a contact on one of the bodies that it touches, and
+    the moment that it would have across its arm."""
+    normal, tangent = (seen.reaction(force)[:, None] for force in _forces(one))
+    if isinstance(one, Pair):
+        place, n = one.place(seen), one.normal_and_gap(seen)[0]
+    else:
+        n = np.array([one.plane.normal])
+        place = seen.point(one.at)[:, :2] - (seen.bodies[one.body].radius or 0.0) * n
+    sign = 1.0 if name == one.body else -1.0
+    along = np.stack([n[:, 1], -n[:, 0]], axis=1)  # it has the normal to its left
+    force = sign * (normal * n + tangent * along)
+    x, y = (place - seen.trajectory.states[name][:, :2]).T
+    moment, most = x * force[:, 1] - y * force[:, 0], np.hypot(x, y) * np.hypot(*force.T)
+    return np.column_stack([force, moment, most])
+
+
+def _accelerations(answer: Answer, motion: Trajectory) -> dict[str, Array]:
+    """(N,) of each body at the samples, by quantity, in the mode that the sample is in."""
+    followed, rows = answer.followed, list[dict[str, float]]()
+    for t, phase, y in zip(motion.times.tolist(), followed.phase.tolist(), followed.y, strict=True):
+        mode = answer.system.modes[followed.phases[phase]]
+        rows.append(accelerations(mode, followed.still(t, phase), *mode.parted(y)))
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 # Friction, at the samples and where a mode ends.
@@ -272,11 +386,13 @@ class _Blow:
         before, after = self.before.trajectory.states, self.after.trajectory.states
         if all(np.array_equal(rows, after[name]) for name, rows in before.items()):
             return
+        apart = [abs(side.gap(self.before)[0]) / self.size.of(side.unit) for side in every]
+        if min(apart) > APART and not self.ends:
+            yield self._jump()
         near = [
             side
-            for side in every
-            if abs(side.gap(self.before)[0]) <= NEAR * self.size.of(side.unit)
-            and side.on(self.before)[0]
+            for side, off in zip(every, apart, strict=True)
+            if off <= NEAR and side.on(self.before)[0]
         ]
         both = self.before, self.after
         rates = {side.name: [float(side.rate(at)[0]) for at in both] for side in near}
@@ -289,6 +405,13 @@ class _Blow:
             yield max(0.0, least - opens, opens - most) / self._speed(side)
         if len(near) == 1 == len(struck):
             yield from self._impulse(near[0])
+
+    def _jump(self) -> float:
+        """The largest jump of a velocity, or of a rate, relative to the motion's."""
+        before, after = self.before.trajectory.states, self.after.trajectory.states
+        jumps = np.array([after[name][0] - rows[0] for name, rows in before.items()])
+        moves, turns = np.abs(jumps[:, VX:OMEGA]).max(), np.abs(jumps[:, OMEGA]).max()
+        return float(max(moves / self.size.speed, turns / self.size.rate))
 
     def _speed(self, side: Side) -> float:
         return self.size.speed if side.unit == "m" else self.size.rate

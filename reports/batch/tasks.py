@@ -9,6 +9,7 @@ from ...cases.case import Case
 from ...cases.language.check.cost import LIMIT
 from ...cases.mistake import CaseError
 from ...cases.trajectory import Trajectory
+from ...engines import guest
 from ...engines.engine import Engine, Plan, Realised, Refusal
 from ...reference.solve import Solution, solve
 from ..compare.judge.compare import Outcome, answered, compare
@@ -40,6 +41,11 @@ class Pair:
     def name(self) -> str:
         """For whoever waits for it."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
+    @property
+    def guest(self) -> str:
+        """The engine, if it is somebody else's: its process answers for nobody else then."""
+        return guest(self.engine)
 
     @property
     def limit(self) -> float:
@@ -87,6 +93,11 @@ class Climb:
     def name(self) -> str:
         """For whoever waits for it."""
         return self.unit.pair.name
+
+    @property
+    def guest(self) -> str:
+        """The engine, if it is somebody else's: its process answers for nobody else then."""
+        return guest(self.unit.pair.engine)
 
     @property
     def limit(self) -> float:

@@ -164,20 +164,36 @@ class Processes(Executor):
             return process
 
     def _run(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
-        process = self._idle.get()
+        process, guest = self._idle.get(), getattr(_task(call), "guest", "")
         try:
+            if process.guest not in ("", guest):
+                process.kill()
+                process = self._replaced(process)
+            process.guest = process.guest or guest
             return process.answer(call)
         except ProcessDied:
-            with self._lock:
-                self._all.discard(process)
-            process = self._started()
+            process = self._replaced(process)
             raise
         finally:
             self._idle.put(process)
 
+    def _replaced(self, process: "_Process") -> "_Process":
+        with self._lock:
+            self._all.discard(process)
+        return self._started()
+
+
+def _task(call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
+    return call[1][-1] if call[1] else None
+
 
 class _Process:
-    """A process that answers one call after the other."""
+    """A process that answers one call after the other.
+
+    guest: somebody else's engine that it has run, whose leftovers are to reach nobody else.
+    """
+
+    guest = ""
 
     def __init__(self, jobs: int) -> None:
         self._here, there = multiprocessing.Pipe()
@@ -191,7 +207,7 @@ class _Process:
 
     def answer(self, call: tuple[Callable, tuple, dict[str, Any]]) -> Any:
         """The call's value from the process; its own error is raised here. Raises ProcessDied."""
-        asked = call[1][-1] if call[1] else None
+        asked = _task(call)
         self._task = getattr(asked, "name", "")
         self._since = time.monotonic()
         try:

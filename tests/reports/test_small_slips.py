@@ -17,6 +17,7 @@ from textmech.reference.solve import solve
 from textmech.reports.compare.events import times as reading_events
 from textmech.reports.compare.events.rests import LOW
 from textmech.reports.compare.events.times import (
+    Known,
     engine_events,
     reading,
     reference_events,
@@ -78,7 +79,7 @@ STOPS = ", stops: {l.slip: stays zero}"
 def read(case: Case, record: Trajectory, event: Event, step: float, share: float) -> Array:
     """Times of the event in an engine that takes these steps of the exact motion."""
     times, u = reading_events._at_steps(case.scene, record, event, step)
-    return reading_events._read(times, u, event, share, 0.0)
+    return reading_events._read(times, u, event, Known(share), 0.0)
 
 
 @pytest.mark.slow
@@ -146,7 +147,7 @@ def coasting(after: float) -> tuple[Scene, Trajectory]:
 def test_what_friction_stops_falls_to_zero_as_it_stops(after: float) -> None:
     scene, record = coasting(after)
     event = Event("box.vx", "falls to zero")
-    assert engine_events(scene, record, event, LOW) == pytest.approx([REST], abs=1e-6)
+    assert engine_events(scene, record, event, Known(LOW)) == pytest.approx([REST], abs=1e-6)
     seen = CROSSES if after > 1e-9 else REST  # what is less is zero, as in the reference
     assert engine_events(scene, record, event) == pytest.approx([seen], abs=1e-3)
 
@@ -253,7 +254,7 @@ def test_what_swings_on_has_not_come_to_rest() -> None:
     states[:, VX] += np.where(t > REST, -0.03 * np.sin(8 * np.pi * (t - REST)), 0.0)
     swings = Trajectory(t, {"box": states}, {}, phase=record.phase)
     event = Event("box.vx", "falls to zero")
-    assert len(engine_events(scene, swings, event, LOW)) > 1
+    assert len(engine_events(scene, swings, event, Known(LOW))) > 1
 
 
 def test_what_lands_in_the_last_step_has_landed(tmp_path: Path) -> None:

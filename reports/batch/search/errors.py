@@ -7,6 +7,7 @@ from math import inf, isnan
 import numpy as np
 
 from ....cases.trajectory import Array
+from ....engines import guest
 from ....engines.engine import Plan
 from ...compare.judge import metric
 from ...compare.judge.error_instant import away_from_instants
@@ -35,6 +36,11 @@ class Run:
     def name(self) -> str:
         """For progress."""
         return f"{self.pair.case.name} in {self.pair.engine.name}"
+
+    @property
+    def guest(self) -> str:
+        """The engine, if it is somebody else's: its process answers for nobody else then."""
+        return guest(self.pair.engine)
 
     @property
     def limit(self) -> float:

@@ -6,7 +6,7 @@ What steps of a size can tell of the reference's own events, their reading of it
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,7 +16,7 @@ from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import AROUND, bent, lasting, passages, touches
+from ....cases.scene.passages import AROUND, bent, lasting, leaps, passages, touches
 from ....cases.scene.quantity import at_event, table
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
@@ -32,6 +32,7 @@ AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
 TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
+STEADY = 0.5  # of the last fall: so well steps foretell the next where nothing trembles or strikes
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
@@ -171,33 +172,80 @@ def _leaves(u: Array, still: float) -> bool:
     return bool(np.max(np.abs(u)) > still)
 
 
+@dataclass(frozen=True)
+class Known:
+    """What of an event of the reference an engine's is read by.
+
+    share: as `reading` says. happened, jumps: when [s] it happens, and when its quantity jumps
+    across the value, as `jumped` says.
+    """
+
+    share: float = 0.0
+    happened: tuple[float, ...] | None = None
+    jumps: tuple[float, ...] = ()
+
+
+def jumped(scene: Scene, record: Trajectory, event: Event, happened: Array) -> Array:
+    """When [s] the event's quantity jumps down across its value, which is no such event.
+
+    As a velocity does in an impact, or a force that is switched off: an engine takes a step or
+    more for it, in which it passes the value.
+    """
+    if not event.crosses:
+        return np.zeros(0)
+    u, small, pieces = _pieces(scene, record, event)
+    found = [
+        float(record.times[before[-1]])
+        for before, after in pairwise(pieces)
+        if u[before[-1]] > small >= u[after[0]]
+    ]
+    for piece in pieces:
+        for t, came, goes in leaps(record.times[piece], u[piece], scene.corners()):
+            found += [t] if came > small >= goes else []
+    near = TOUCHES * float(record.times[-1] - record.times[0])
+    return np.array([t for t in sorted(found) if not np.any(np.abs(happened - t) <= near)], float)
+
+
 def engine_events(
-    scene: Scene, record: Trajectory, event: Event, share: float = 0.0, count: int | None = None
+    scene: Scene, record: Trajectory, event: Event, known: Known | None = None
 ) -> Array:
     """Times (K,) [s] of the event, from every step of an engine.
 
-    share: as `reading` says; an engine that creeps or trembles above it is read by the least larger
-    one with which the event happens `count` times. Raises KeyError where the record does not hold
-    the quantity.
+    An engine that creeps or trembles above the known share is read by the least larger one with
+    which the event happens as often as in the reference. Raises KeyError where the record does not
+    hold the quantity.
     """
+    known = known or Known()
     times, u = record.times, event.falling(observe(scene, record, event.quantity))
     small = still(scene, record, event.quantity)
-    found = _read(times, u, event, share, small)
-    larger = [each for each in reversed(SHARES) if each > share > 0.0]
-    if count is None or len(found) == count:
+    found = _read(times, u, event, known, small)
+    larger = [each for each in reversed(SHARES) if each > known.share > 0.0]
+    if known.happened is None or len(found) == len(known.happened):
         return found
-    others = (_read(times, u, event, each, small) for each in larger)
-    return next((other for other in others if len(other) == count), found)
+    others = (_read(times, u, event, replace(known, share=each), small) for each in larger)
+    return next((other for other in others if len(other) == len(known.happened)), found)
 
 
-def _read(times: Array, u: Array, event: Event, share: float, small: float) -> Array:
+def _read(times: Array, u: Array, event: Event, known: Known, small: float) -> Array:
     """Times (K,) [s] of the event, from u (N,) at steps; small: as `falls` says."""
     if not event.crosses:
-        found = rests(times, u, share or LOW)
+        found = rests(times, u, known.share or LOW)
         ends = [stop if event.rule == "stays zero" else start for stop, start in found]
         return np.array([t for t in ends if t is not None], float)
     fallen = falls(times, u, small)
-    return _to_rest(times, u, fallen, share) if share else fallen
+    return _without_jumps(_to_rest(times, u, fallen, known.share) if known.share else fallen, known)
+
+
+def _without_jumps(found: Array, known: Known) -> Array:
+    """The times without those that belong to jumps of the reference, and to none of its events."""
+    if not known.jumps or not len(found):
+        return found
+    all_times = np.array([*(known.happened or ()), *known.jumps])
+    order = np.argsort(all_times)
+    jumps = (np.arange(len(order)) >= len(order) - len(known.jumps))[order]
+    if len(found) <= len(order):
+        return found[~jumps[nearest(found, all_times[order])]]
+    return np.delete(found, nearest(all_times[order], found)[jumps])
 
 
 def _to_rest(times: Array, u: Array, fallen: Array, share: float) -> Array:
@@ -232,9 +280,10 @@ def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, ste
         return 0.0
     times, u = _at_steps(scene, record, event, step)
     small = still(scene, record, event.quantity)
+    known = Known(0.0, (*happened,), (*jumped(scene, record, event, happened),))
 
     def right(share: float) -> bool:
-        found = _read(times, u, event, share, small)
+        found = _read(times, u, event, replace(known, share=share), small)
         return len(found) == len(happened) and bool(np.all(np.abs(found - happened) <= step))
 
     return next((share for share in SHARES if right(share)), 0.0 if event.crosses else LOW)
@@ -280,7 +329,7 @@ def falls(times: Array, u: Array, small: float = 0.0) -> Array:
     Up to `small` it is zero, as the reference's, if it comes there at once: a rope that an exact
     impact has pulled taut stays so up to rounding, of either sign. What only decays does not.
     An impact may turn u back before any step sees it at zero: then it is the zero of what went
-    before, if the line through the last two falling steps has one within the next and u then rises.
+    before, if that has one within the next step and u then rises, as `_turned` says.
     What rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
     before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
@@ -290,7 +339,9 @@ def falls(times: Array, u: Array, small: float = 0.0) -> Array:
     through = (u[:-1] > 0) & (u[1:] <= 0)
     through |= (u[:-1] > AT_ONCE * small) & (u[1:] <= small)
     seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
-    seen |= {int(i) + 1: _through(times, u, int(i) + 1, int(i)) for i in np.flatnonzero(turned)}
+    for i in (np.flatnonzero(turned) + 1).tolist():
+        if (zero := _turned(times, u, i)) is not None:
+            seen[i] = zero
     largest, last = float(np.max(np.abs(u))), 0
     found: list[float] = []
     for i, t in sorted(seen.items()):
@@ -318,7 +369,7 @@ def surely(
         return np.arange(0)
     if not event.crosses:
         small = still(scene, record, event.quantity)
-        found = _read(*_at_steps(scene, record, event, step), event, share, small)
+        found = _read(*_at_steps(scene, record, event, step), event, Known(share), small)
         partners = nearest(found[: len(happened)], happened)
         close = np.abs(found[: len(happened)] - happened[partners]) <= STEPS * step
         return partners[close]
@@ -355,14 +406,32 @@ def _through(times: Array, u: Array, i: int, line: int) -> float:
     already the line to the next. Where steps tremble too much for any curve a line tells, through
     steps `line` and the next.
     """
+    zero = _of_curve(times, u, i) if i >= CURVE - 1 else None
+    return _zero(times, u, line) if zero is None else zero
+
+
+def _turned(times: Array, u: Array, i: int) -> float | None:
+    """The zero after step i, where u is above zero again at the next; None where it only came near.
+
+    A curve that goes on as its steps before foretell, and has no zero, turns by itself.
+    """
     if i < CURVE - 1:
-        return _zero(times, u, line)
+        return _zero(times, u, i - 1)
+    zero = _of_curve(times, u, i)
+    before = slice(i - CURVE + 1, i)
+    foretold = np.polyval(np.polyfit(times[before] - times[i], u[before], CURVE - 2), 0.0)
+    steady = abs(foretold - u[i]) <= STEADY * (u[i - 1] - u[i])
+    return _zero(times, u, i - 1) if zero is None and not steady else zero
+
+
+def _of_curve(times: Array, u: Array, i: int) -> float | None:
+    """The first zero after step i and within the next, of the curve through the steps up to it."""
     h = float(times[i + 1] - times[i])
     rows = slice(i - CURVE + 1, i + 1)
     roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
     zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
     inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
-    return float(times[i]) + h * float(np.min(inside)) if len(inside) else _zero(times, u, line)
+    return float(times[i]) + h * float(np.min(inside)) if len(inside) else None
 
 
 def _zero(times: Array, u: Array, i: int) -> float:

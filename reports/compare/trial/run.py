@@ -13,11 +13,12 @@ from ....cases.scene.frame import frame_of
 from ....cases.scene.observe import motion_of, observe
 from ....cases.scene.quantity import at_event, told_by
 from ....cases.trajectory import Array, Trajectory
+from ....engines import guest
 from ....engines.engine import Claims, Diverged, Engine, Plan, Start
 from ...system.limit import limit
 from ...system.table_text import spelled
 from ..events.states import engine_states
-from ..events.times import engine_events
+from ..events.times import Known, engine_events
 from .answers import claimed, moved
 from .ladder import wanted_reactions
 from .work import pace
@@ -34,8 +35,7 @@ class Rung:
 
     bounds: what is read, and how large it may become and still be a motion. poses: whether the
     bodies' places and attitudes are kept beside it. fastest: how fast joints turn in the reference
-    [rad/s], in space, where turns are counted. events: how the rests of each are read, and how
-    often it happens in the reference.
+    [rad/s], in space, where turns are counted. events: what is known of each from the reference.
     """
 
     case: Case
@@ -46,12 +46,17 @@ class Rung:
     bounds: Mapping[str, float]
     poses: bool = False
     fastest: float = 0.0
-    events: Mapping[str, tuple[float, int]] = field(default_factory=dict)
+    events: Mapping[str, Known] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         """For whoever waits for it."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
+
+    @property
+    def guest(self) -> str:
+        """The engine, if it is somebody else's: its process answers for nobody else then."""
+        return guest(self.engine)
 
     @property
     def steps(self) -> float:
@@ -82,7 +87,10 @@ def _run(rung: Rung) -> Samples:
     )
     trajectory = counted(
         case,
-        lambda times: moved(run(scene, rung.start, times, rung.step, rung.plan), scene, times),
+        # A copy: an engine that changes what it is given must not change what it is asked for.
+        lambda times: moved(
+            run(scene, rung.start, times.copy(), rung.step, rung.plan), scene, times
+        ),
         rung.step,
         rung.fastest,
     )
@@ -128,8 +136,8 @@ def _events(rung: Rung, trajectory: Trajectory) -> Samples:
         return found
     for name, event in case.events.items():
         with suppress(KeyError):  # a reaction that is not recorded at every step
-            read_by = rung.events.get(name, (0.0, 0))
-            found[f"{name}.time"] = engine_events(case.scene, record, event, *read_by)
+            known = rung.events.get(name)
+            found[f"{name}.time"] = engine_events(case.scene, record, event, known)
     for name in case.allow:
         at = at_event(name, case.events)
         if at is not None and f"{at.event}.time" in found:

@@ -15,7 +15,7 @@ from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
 from ...system.table_text import why
 from ..events.states import reference_states
-from ..events.times import nearest, reading, reference_events, surely
+from ..events.times import Known, jumped, nearest, reading, reference_events, surely
 from .answers import plans
 from .ladder import judged_step
 from .start import first
@@ -191,9 +191,23 @@ class Trial:
         """Remembers the shares by step: two ladders ask for the same one."""
         return {}
 
-    def read_by(self, step: float) -> dict[str, tuple[float, int]]:
-        """How the rests of each event are read from such steps, and how often it happens."""
-        return {name: (share, len(self.events[name])) for name, share in self.shares(step).items()}
+    def read_by(self, step: float) -> dict[str, Known]:
+        """How the rests of each event are read from such steps, and when it happens or might."""
+        return {
+            name: Known(share, (*self.events[name].tolist(),), self._jumps[name])
+            for name, share in self.shares(step).items()
+        }
+
+    @cached_property
+    def _jumps(self) -> dict[str, tuple[float, ...]]:
+        """When [s] the reference jumps across an event's value, which each rung has to know."""
+        scene, record = self.case.scene, self.reference.record
+        if record is None:
+            return dict.fromkeys(self.case.events, ())
+        return {
+            name: (*jumped(scene, record, event, self.events[name]).tolist(),)
+            for name, event in self.case.events.items()
+        }
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:
