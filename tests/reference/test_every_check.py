@@ -48,6 +48,8 @@ CHECKS = {
     "'what presses touches'": OF_ONE_SIDE,
     '"friction is the file\'s"': OF_ONE_SIDE,
     '"blows are the file\'s"': OF_ONE_SIDE,
+    "'springs act from their length on'": OF_ONE_SIDE,
+    "'contacts move free bodies by (2.22)'": OF_ONE_SIDE,
     "NAME": "test_determined.py::test_what_is_open_and_is_taken_for_one_value_fails_by_itself",
     "'generated states'": "states/test_answer.py::test_a_mistake_in_a_law_is_seen",
     "'joints hold (2.10), (2.15)'": OF_STATES,

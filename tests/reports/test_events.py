@@ -14,7 +14,13 @@ from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reports.compare.events import rests as reading
 from textmech.reports.compare.events import times as event_times
 from textmech.reports.compare.events.rests import rests
-from textmech.reports.compare.events.times import engine_events, falls, reference_events
+from textmech.reports.compare.events.times import (
+    Known,
+    engine_events,
+    falls,
+    jumped,
+    reference_events,
+)
 
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})}, {}, {}, {}
@@ -192,6 +198,80 @@ def test_what_turns_above_zero_does_not_fall_to_it() -> None:
         u = lowest + (t - 0.3) ** 2
         assert len(falls(t, u)) == 0
         assert list(passages(t, u, 1e-9)) == []
+
+
+NEAR, WIDE = 5e-8, 2e-3
+"""m: so far above zero it turns, between two steps of either size; s: the larger of them."""
+
+
+@pytest.mark.mutant("what turns just above zero by itself has fallen to it")
+@pytest.mark.parametrize("h", [1e-4, WIDE])
+@pytest.mark.parametrize("within", [0.0, 0.3, 0.5, 0.9])
+def test_what_turns_just_above_zero_has_not_fallen(
+    h: float, within: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A swing of 0.1 m and 10 rad/s: the steps beside its turn are above zero by some ẍh²."""
+    t = grid(0.7, h)
+    turn = 0.31415 + h * within
+    height = 0.1 - 0.1 * np.cos(10 * (t - turn)) + NEAR
+    assert len(falls(t, height)) == 0
+    through = falls(t, height - 2 * NEAR)
+    assert through == pytest.approx([turn - np.arccos(1 - NEAR / 0.1) / 10], abs=5e-5)
+    monkeypatch.setattr(event_times, "STEADY", -1.0)
+    if h == WIDE and within == 0.3:
+        assert len(falls(t, height)) == 1
+
+
+ROOF, UP = 0.3, 5.0  # s: when a ball that is thrown up strikes; m/s: how it is thrown
+ENDS = 0.5  # s
+
+
+def moving(t: Array, velocity: Array, **known: Any) -> Trajectory:
+    states = np.zeros((len(t), 6))
+    states[:, VX] = velocity
+    return Trajectory(t, {"box": states}, {}, **known)
+
+
+def rises(t: Array) -> Array:
+    return UP - 10.0 * t
+
+
+def falls_back(t: Array, roof: float) -> Array:
+    """It is thrown back with 0.8 of what it strikes the roof with."""
+    return -0.8 * rises(np.array(roof)) - 10.0 * (t - roof)
+
+
+@pytest.mark.mutant("a velocity that jumps across a value in an engine has fallen to it")
+@pytest.mark.parametrize("steps", [1, 12])
+@pytest.mark.parametrize("late", [0.0, 4e-3])
+def test_what_jumps_across_a_value_is_no_event_of_an_engine(steps: int, late: float) -> None:
+    """Nor where its blow is late, or takes some steps; an event that it has not stays missed."""
+    event = Event("box.vx", "falls to zero", 1.0)
+    up, down = np.linspace(0.0, ROOF, 40), np.linspace(ROOF, ENDS, 40)
+    reference = moving(
+        np.append(up, down), np.append(rises(up), falls_back(down, ROOF)),
+        phase=np.repeat([0, 1], 40), ended=("ball lands",),
+    )  # fmt: skip
+    happened = reference_events(SCENE, reference, event)
+    assert len(happened) == 0
+    jumps = jumped(SCENE, reference, event, happened)
+    assert jumps == pytest.approx([ROOF])
+    t, roof = grid(ENDS), ROOF + late
+    velocity = np.where(t > roof, falls_back(t, roof), rises(t))
+    blow = np.pad(velocity, steps, mode="edge")
+    engine = moving(t, np.convolve(blow, np.ones(steps) / steps, "same")[steps:-steps])
+    assert len(engine_events(SCENE, engine, event)) == 1
+    for other in ((), (0.45,)):
+        known = Known(0.0, other, tuple(jumps))
+        assert len(engine_events(SCENE, engine, event, known)) == 0
+
+
+def test_where_both_happen_the_jump_is_left_out() -> None:
+    found = event_times._without_jumps(np.array([0.31, 1.27]), Known(0.0, (1.27,), (0.3,)))
+    assert found.tolist() == [1.27]
+    more = np.array([0.1, 0.31, 1.27])  # one that the reference does not have is none of its jumps
+    found = event_times._without_jumps(more, Known(0.0, (1.27,), (0.3,)))
+    assert found.tolist() == [0.1, 1.27]
 
 
 def test_what_rests_on_the_floor_falls_once() -> None:

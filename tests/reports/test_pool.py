@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -44,6 +45,34 @@ def test_engines_do_not_write_into_the_users_folder(tmp_path, monkeypatch) -> No
     monkeypatch.chdir(tmp_path)
     with pool.local(1) as executor:
         assert dict(pool.spread(where, [0], executor))[0] != str(tmp_path)
+
+
+@dataclass(frozen=True)
+class Guest:
+    """A task of somebody else's engine, which leaves something behind; of ours it is empty."""
+
+    guest: str
+
+
+def leftovers(task: Guest) -> tuple[int, str]:
+    found = os.environ.get("LEFT_BEHIND", "")
+    if task.guest:
+        os.environ["LEFT_BEHIND"] = task.guest
+    return os.getpid(), found
+
+
+@pytest.mark.mutant("a process that ran somebody else's engine answers for all")
+def test_what_an_engine_leaves_behind_reaches_nobody_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    tasks = [Guest(name) for name in ("", "one", "one", "", "", "two", "one", "")]
+    with pool.local(1) as executor:
+        found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
+    assert [left for _, left in found] == ["", "", "one", "", "", "", "", ""]
+    assert found[0][0] == found[1][0] == found[2][0]  # no more processes than it needs
+    assert found[3][0] == found[4][0] == found[5][0]
+    monkeypatch.setattr(pool._Process, "guest", property(lambda self: "", lambda self, name: None))
+    with pool.local(1) as executor:
+        found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
+    assert found[3][1] == "one"
 
 
 def end(how: str) -> str:

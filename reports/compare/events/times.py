@@ -174,7 +174,7 @@ def _leaves(u: Array, still: float) -> bool:
 
 @dataclass(frozen=True)
 class Known:
-    """What of an event of the reference an engine's is read by.
+    """The reference's side of an event, by which an engine's is read.
 
     share: as `reading` says. happened, jumps: when [s] it happens, and when its quantity jumps
     across the value, as `jumped` says.

@@ -21,6 +21,7 @@ from textmech.reference.solve import solve
 
 PASSES, TOUCHES = "nothing passes what holds it", "what presses touches"
 FRICTION, BLOWS = "friction is the file's", "blows are the file's"
+LENGTH, MOVE = "springs act from their length on", "contacts move free bodies by (2.22)"
 TWO_STOPS = """\
 scene:
   gravity: none
@@ -125,7 +126,36 @@ initial:
   shank: {angle: -60 deg, omega: 0, vx: 0, vy: 0}
 allow: {thigh.omega: 1.0e-3}
 """
+HOPS = """\
+scene:
+  bodies: {d: {disk: {mass: 1.0, radius: 0.2}}}
+  contacts: {f: {between: [d, ground.floor], friction: 0, restitution: 0.8}}
+events: {lands: {f.gap: falls to zero}}
+initial: {d: {x: 0, y: 0.9, angle: 0, vx: 1}}
+allow: {d.y: 1.0e-3}
+"""
+BAND = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {particle: {mass: 1.0}}}
+  forces: {s: {spring: [ground.O, b.center], stiffness: 50, rest_length: 0.4, only: tension}}
+initial: {b: {x: 0.1, y: 0.2, vx: 2}}
+allow: {b.x: 1.0e-3}
+"""
+SLIDES = """\
+scene:
+  points: {O: [0, 2]}
+  bodies: {d: {disk: {mass: 1.0, radius: 0.2}, points: {P: [0.1, 0.05]}}}
+  contacts: {f: {between: [d, ground.floor], friction: 0.2}}
+  forces:
+    p: {push: d.center, sine: {amplitude: [0.3, 0.2], angular_frequency: 7}}
+    s: {spring: [ground.O, d.P], stiffness: 2, rest_length: 1}
+initial: {d: {x: 0, y: 0.2, angle: 0, omega: 90, vx: 4}}
+allow: {d.x: 1.0e-3}
+"""
 SCENES = {
+    "a disk that hops": HOPS, "a band": BAND, "a disk that slides": SLIDES,
     "a pulse that lifts": LIFTED, "a stop that nearly touches": NEARLY,
     "stops between two bodies": TWO_STOPS, "a rope": ROPE,
     "a disk that bounces": BOUNCE, "a disk on a face": ON_A_FACE, "a blow on a face": STRIKES,
@@ -145,7 +175,7 @@ def checks(folder: Path, name: str) -> dict[str, Any]:
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_sound_holds(name: str, tmp_path: Path) -> None:
     found = checks(tmp_path, name)
-    assert {FRICTION, PASSES} & found.keys()
+    assert {FRICTION, PASSES, LENGTH} & found.keys()
     assert [check for check in found.values() if not check.holds] == []
 
 
@@ -205,12 +235,30 @@ def other_way(self: Any, forces: Any) -> tuple[float, float]:
     return MARGINS(replace(self, friction=friction), forces)
 
 
+def acts_later(self: Any, t: float, q: Any) -> float:
+    return SLACK(self, t, q) - self.way * 1e-4 * self.spring.rest_length
+
+
+def rubs(tilt: float, lever: float) -> Callable[..., Any]:
+    """Friction along another line, or with another lever about the centre of a disk."""
+
+    def wrong(contact: Any, where: Any) -> Constraint:
+        made = TANGENT(contact, where)
+        (x, y), (nx, ny) = contact.plane.along, contact.plane.normal
+        along, turns = made.rows[0]
+        line = replace(along, u=(x + tilt * nx, y + tilt * ny))
+        return with_row(made, (line, replace(turns, axis=lever * turns.axis)))
+
+    return wrong
+
+
 def bounces(*given: Any, **named: Any) -> Any:
     touching, met = MEETINGS(*given, **named)
     return touching, [replace(m, after=1.0001 * m.after) for m in met]
 
 
 ALONG, NORMAL, SIGN = unilateral.along, element.normal, blow.sign
+SLACK, TANGENT = unilateral.OneSided.slack, element.tangent
 ROPED, STOPPED, MARGINS = unilateral.roped, unilateral.stopped, element.Sliding.margins
 MEETINGS = landing._meetings
 LIMITS = unilateral.LIMITS
@@ -246,6 +294,20 @@ MISTAKES: dict[str, tuple[Callable[[pytest.MonkeyPatch], object], list[str], set
     ),
     "a plane stands elsewhere": (
         lambda patch: patch.setattr(element, "normal", moved), ["a disk that bounces"], {PASSES},
+    ),
+    "what hops turns back above the floor": (
+        lambda patch: patch.setattr(element, "normal", moved), ["a disk that hops"], {BLOWS},
+    ),
+    "a band pulls from another length on": (
+        lambda patch: patch.setattr(unilateral.OneSided, "slack", acts_later), ["a band"], {LENGTH},
+    ),
+    "friction is not along the plane": (
+        lambda patch: patch.setattr(element, "tangent", rubs(1e-6, 1.0)),
+        ["a disk that slides"], {MOVE},
+    ),
+    "friction has another lever": (
+        lambda patch: patch.setattr(element, "tangent", rubs(0.0, 1.000001)),
+        ["a disk that slides"], {MOVE},
     ),
     "what sticks lets go later": (
         lambda patch: patch.setattr(element.Touching, "margins", static(1.001)),

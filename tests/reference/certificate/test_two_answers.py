@@ -218,6 +218,8 @@ OF_ONE_ANSWER = {
     "what presses touches",
     "friction is the file's",
     "blows are the file's",
+    "springs act from their length on",
+    "contacts move free bodies by (2.22)",
     "starts as it is given",
     "starts near what is said",
     "forces determined",  # tests/reference/test_determined.py
