@@ -147,10 +147,11 @@ class _Walker:
         """Learn the rounding of the slopes: the error did not fall as the step did."""
         with np.errstate(all="ignore"):
             try:
-                far = h
-                if not self.begun:  # a step this short may see no rounding at all
-                    far = max(h, self.ahead)
-                    self.least = leaps(self.method.f, self.t, self.y, far)
+                # A step this short may see no rounding at all.
+                ahead = max(h, self.ahead)
+                far = h if self.begun else ahead
+                if self.quiet or not self.begun:
+                    self.least = leaps(self.method.f, self.t, self.y, ahead)
                 later = np.abs(self.method.f(self.until, self.y))
                 found = noise(self.method.f, self.t, self.y, far, self.peak, self.least, later)
             except (ArithmeticError, ValueError):  # too far out, as in an attempt

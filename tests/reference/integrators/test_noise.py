@@ -52,6 +52,26 @@ def test_what_stands_a_metre_from_where_it_is_measured_starts_from_rest(method):
     assert found.steps < 500  # 110 of the explicit method
 
 
+# m, kg, N/m, N/s, s: some of what is drawn takes its first step before anything is heard
+DRAWN = [(1.0, 2.0, 50.0, 1.0, 0.08), (1.59, 4.77, 54.1, 0.24, 0.08), (0.4, 0.9, 120.0, 1.7, 0.04)]
+
+
+@BOTH
+@pytest.mark.parametrize(("away", "mass", "stiffness", "rate", "apart"), DRAWN)
+def test_so_it_does_whatever_its_first_step_takes(
+    method, away: float, mass: float, stiffness: float, rate: float, apart: float
+) -> None:
+    def slope(t: float, y: Vector) -> Vector:
+        x, v = y
+        return np.array([v, (rate * t - stiffness * ((away + x) - away)) / mass])
+
+    times = np.linspace(0.0, 2.0, round(2.0 / apart) + 1)
+    found = method(slope, times, [0.0, 0.0], tolerance=TIGHT, most=3000)
+    omega = np.sqrt(stiffness / mass)
+    wanted = rate / stiffness * (times - np.sin(omega * times) / omega)
+    np.testing.assert_allclose(found.y[:, 0], wanted, atol=1e-12 * wanted[-1])
+
+
 BOUND = 6.0  # N, beside which a force that grows slowly moves by leaps of 9e-16 N
 
 
