@@ -69,6 +69,35 @@ def pytest_configure_node(node: Any) -> None:
     node.workerinput[_SHARED] = str(stash[_FOLDER])
 
 
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Patterns of the ini file that find nothing must not look like a pass.
+
+    Who names files or folders on the command line has said which.
+    """
+    config = session.config
+    named = config.args_source is pytest.Config.ArgsSource.ARGS
+    if named or hasattr(config, "workerinput"):
+        return
+    walked = [(config.invocation_params.dir / argument).resolve() for argument in config.args]
+    for pattern in config.getini("textmech_cases"):
+        found = [Path(file) for file in glob.glob(_from_root(pattern, config), recursive=True)]
+        files = [file.resolve() for file in found if file.suffix in SUFFIXES]
+        if not files:
+            what = f"no case file fits {pattern!r}; a pattern with a space stands in quotes"
+            raise pytest.UsageError(f"textmech_cases: {what}")
+        beside = [file for file in files if not any(file.is_relative_to(top) for top in walked)]
+        if beside:
+            what = (
+                f"{beside[0]} is below none of `testpaths`, where alone pytest looks: add it there"
+            )
+            raise pytest.UsageError(f"textmech_cases: {what}")
+
+
+def _from_root(pattern: str, config: pytest.Config) -> str:
+    root = glob.escape(str(config.rootpath))  # it is a folder, whatever letters it is called by
+    return os.path.join(root, pattern)
+
+
 def _is_case(argument: str) -> bool:
     return Path(argument.partition("::")[0]).suffix in SUFFIXES
 
@@ -82,8 +111,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 def _configured(file: Path, config: pytest.Config) -> bool:
-    root = glob.escape(str(config.rootpath))  # it is a folder, whatever letters it is called by
-    patterns = (os.path.join(root, pattern) for pattern in config.getini("textmech_cases"))
+    patterns = (_from_root(pattern, config) for pattern in config.getini("textmech_cases"))
     return any(_fits(file.parts, Path(os.path.normpath(pattern)).parts) for pattern in patterns)
 
 

@@ -47,6 +47,28 @@ def test_configured_files_are_compared(project: pytest.Pytester) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("ini", "what"),
+    [
+        ("textmech_cases = case/*.yaml", "no case file fits 'case/*.yaml'; *"),
+        (
+            "textmech_cases = sw*.yaml\ntestpaths = tests",
+            "*swing.yaml is below none of `testpaths`*",
+        ),
+    ],
+)
+def test_files_that_the_ini_file_names_and_nothing_finds_are_no_pass(
+    project: pytest.Pytester, ini: str, what: str
+) -> None:
+    project.makeini(f"[pytest]\n{ini}")
+    project.mkdir("tests").joinpath("test_own.py").write_text("def test_own(): pass")
+    done = inner(project)
+    assert done.ret == pytest.ExitCode.USAGE_ERROR
+    done.stderr.fnmatch_lines([f"ERROR: textmech_cases: {what}"])
+    inner(project, "tests").assert_outcomes(passed=1)  # whoever names a folder has said which
+
+
+@pytest.mark.slow
 def test_a_failure_prints_the_row_and_the_files_line(project: pytest.Pytester) -> None:
     promised = "reach: {mujoco: {rod.angle: 1.0e-12}}\n"
     project.makefile(".yaml", swing=swing("1.0e-6") + promised)
