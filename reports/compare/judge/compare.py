@@ -12,9 +12,11 @@ from ....engines import SETTINGS
 from ....engines.engine import Refusal
 from ...data.row import (
     AGREES,
+    ANOTHER,
     CRASHED,
     DIVERGED,
     FAILS,
+    FALLS,
     REFUSED,
     UNSETTLED,
     Comparison,
@@ -169,15 +171,17 @@ def _telling(
     """The ladder that tells a cause: the held one, which parts step and model.
 
     With the numbers of its coarsest step the model may be further off than the judged run is, or
-    within at the very step at which that is not. That explains nothing, and the ladder whose
-    numbers follow is asked.
+    within at the very step at which that is not. That explains nothing, nor does a model that is
+    off with those alone, as the error falls where they follow: the ladder is asked in which they do.
     """
     worse = (held.limit or 0.0) > largest
     beyond = largest > (trial.allowed(name) or np.inf)
     better = beyond and (held.usable_step or 0.0) >= trial.step
-    if len(runs.ladders) == 1 or not (worse or better):
+    model = held.verdict == ANOTHER
+    if len(runs.ladders) == 1 or not (worse or better or model):
         return held
-    return _study(trial, next(iter(runs.ladders)), runs, name, among)
+    following = _study(trial, next(iter(runs.ladders)), runs, name, among)
+    return following if worse or better or following.verdict == FALLS else held
 
 
 def _study(
