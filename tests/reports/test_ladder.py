@@ -24,7 +24,7 @@ from textmech.reports.compare.trial.ladder import (
     wanted_reactions,
 )
 from textmech.reports.compare.trial.trial import Trial
-from textmech.reports.data.row import AGREES, WITHIN
+from textmech.reports.data.row import AGREES, ANOTHER, FALLS, WITHIN
 from textmech.reports.show import script as showing
 
 Make = Callable[..., Trial]
@@ -166,6 +166,24 @@ def told_by(trial: Trial, error: float, held: Convergence, monkeypatch: pytest.M
     runs = SimpleNamespace(ladders=both)
     told = comparing._telling(trial, "ball.x", runs, error, held)  # pyright: ignore
     return "held" if told is held else str(told)
+
+
+@pytest.mark.mutant("a model is blamed for the numbers of a ladder's coarsest step")
+@pytest.mark.parametrize(("verdict", "asked"), [(FALLS, "following"), (ANOTHER, "held")])
+def test_a_model_whose_error_falls_where_its_numbers_follow_is_not_blamed(
+    trial: Make,
+    moving: Case,
+    verdict: str,
+    asked: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    one, following = trial(moving), Convergence(verdict, {}, None)
+    monkeypatch.setattr(comparing, "_study", lambda *given: following)
+    both = {Ladder("following", (one.step,)): {}, Ladder("held", (one.step,)): {}}
+    model = Convergence(ANOTHER, {}, None, limit=3.76, uncertainty=0.05)
+    runs = SimpleNamespace(ladders=both)
+    told = comparing._telling(one, "ball.x", runs, 5.53, model)  # pyright: ignore
+    assert told is (following if asked == "following" else model)
 
 
 @pytest.mark.mutant("the step is to blame, and it is small enough already")

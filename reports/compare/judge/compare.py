@@ -172,7 +172,8 @@ def _telling(
 
     With the numbers of its coarsest step the model may be further off than the judged run is, or
     within at the very step at which that is not. That explains nothing, nor does a model that is
-    off with those alone, as the error falls where they follow: the ladder is asked in which they do.
+    off with those alone: where they follow, its error falls. So the ladder is asked in which they
+    do.
     """
     worse = (held.limit or 0.0) > largest
     beyond = largest > (trial.allowed(name) or np.inf)
