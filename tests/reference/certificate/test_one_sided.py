@@ -245,7 +245,8 @@ def rubs(tilt: float, lever: float) -> Callable[..., Any]:
     def wrong(contact: Any, where: Any) -> Constraint:
         made = TANGENT(contact, where)
         (x, y), (nx, ny) = contact.plane.along, contact.plane.normal
-        along, turns = made.rows[0]
+        row: Any = made.rows[0]
+        along, turns = row
         line = replace(along, u=(x + tilt * nx, y + tilt * ny))
         return with_row(made, (line, replace(turns, axis=lever * turns.axis)))
 
