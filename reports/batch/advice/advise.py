@@ -28,6 +28,7 @@ from .criterion import Bar
 from .parameter_draws import tried_in_draws
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
+ZERO = 1e-9  # of `allow`: what is no larger in all the motion is nothing but rounding
 ROUNDS = 12  # of what keeps the bar here, and not where a loop is cut elsewhere
 TOLD_IN = "engines/README.md#the-protocol"
 NO_STEPS = "a claim about states: no step and no option plays a part"
@@ -152,7 +153,10 @@ def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
 
 
 def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:
-    """From the case's tolerances to a part of each quantity's size; events happen as often."""
+    """From the case's tolerances to a part of each quantity's size; events happen as often.
+
+    What is zero has no size: it is asked for what the case allows.
+    """
     if tolerance is None:
         return {}
     dated = {f"{event}.time": trial.case.duration for event in trial.case.events}
@@ -162,7 +166,7 @@ def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:
     return {
         name: (trial.allowed(name) or 0.0) / (tolerance * size)
         for name, size in sizes.items()
-        if size > 0
+        if size > ZERO * (trial.allowed(name) or 0.0)
     }
 
 

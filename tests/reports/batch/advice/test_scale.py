@@ -30,6 +30,18 @@ def test_an_error_is_told_over_a_part_of_the_quantitys_size(trial: Callable[...,
     assert scale(made, 1e-3, other) == {"ball.x": pytest.approx(0.1)}
 
 
+@pytest.mark.mutant("a thousandth of what is zero but for rounding is asked for")
+@pytest.mark.parametrize("size", [0.0, 4e-17])
+def test_what_is_zero_has_no_size(
+    trial: Callable[..., Trial], size: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = trial()
+    monkeypatch.setattr(Trial, "size", lambda self, name: size)
+    assert scale(made, 1e-3) == {}
+    was = "size > ZERO * (trial.allowed(name) or 0.0)"
+    assert (scale(made, 1e-3, otherwise(advise, was, "size > 0")) == {}) is (size == 0.0)
+
+
 def holds(margin: float, factor: float, module: Any = bar) -> bool:
     """Of an error of 0.4 of what the case allows."""
     return module.Bar({ONE: {"x": (0.4, 0.4)}}, margin, {"x": factor}).holds(ONE)
