@@ -52,8 +52,11 @@ def test_what_killed_workers_shared_goes_with_the_next_run(
         os.killpg(process.pid, signal.SIGKILL)
     assert found
     assert found[0].is_dir()
-    with passing("textmech-shared-"):
-        assert not found[0].exists()
+    until = time.monotonic() + 60.0  # a worker that is killed as it starts may hold the mark a while
+    while found[0].exists() and time.monotonic() < until:
+        with passing("textmech-shared-"):
+            time.sleep(0.01)
+    assert not found[0].exists()
 
 
 @pytest.mark.slow
