@@ -52,7 +52,7 @@ def test_what_killed_workers_shared_goes_with_the_next_run(
         os.killpg(process.pid, signal.SIGKILL)
     assert found
     assert found[0].is_dir()
-    until = time.monotonic() + 60.0  # a worker that is killed as it starts may hold the mark a while
+    until = time.monotonic() + 60.0  # a worker killed as it starts may hold the mark a while
     while found[0].exists() and time.monotonic() < until:
         with passing("textmech-shared-"):
             time.sleep(0.01)
