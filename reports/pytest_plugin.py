@@ -72,11 +72,10 @@ def pytest_configure_node(node: Any) -> None:
 def pytest_sessionstart(session: pytest.Session) -> None:
     """Patterns of the ini file that find nothing must not look like a pass.
 
-    Who names files or folders on the command line has said which.
+    Who names files or folders on the command line, or stands in one, has said which.
     """
-    config = session.config
-    named = config.args_source is pytest.Config.ArgsSource.ARGS
-    if named or hasattr(config, "workerinput"):
+    config, source = session.config, pytest.Config.ArgsSource
+    if config.args_source is source.ARGS or hasattr(config, "workerinput"):
         return
     walked = [(config.invocation_params.dir / argument).resolve() for argument in config.args]
     for pattern in config.getini("textmech_cases"):
@@ -86,7 +85,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
             what = f"no case file fits {pattern!r}; a pattern with a space stands in quotes"
             raise pytest.UsageError(f"textmech_cases: {what}")
         beside = [file for file in files if not any(file.is_relative_to(top) for top in walked)]
-        if beside:
+        if beside and config.args_source is source.TESTPATHS:
             what = (
                 f"{beside[0]} is below none of `testpaths`, where alone pytest looks: add it there"
             )

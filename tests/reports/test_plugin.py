@@ -1,5 +1,6 @@
 """The pytest plug-in, as it behaves in somebody else's project."""
 
+import sys
 import tomllib
 from pathlib import Path
 from typing import cast
@@ -66,6 +67,17 @@ def test_files_that_the_ini_file_names_and_nothing_finds_are_no_pass(
     assert done.ret == pytest.ExitCode.USAGE_ERROR
     done.stderr.fnmatch_lines([f"ERROR: textmech_cases: {what}"])
     inner(project, "tests").assert_outcomes(passed=1)  # whoever names a folder has said which
+
+
+@pytest.mark.slow
+def test_whoever_stands_in_a_folder_has_said_which(project: pytest.Pytester) -> None:
+    project.makeini("[pytest]\ntextmech_cases = sw*.yaml")
+    folder = project.mkdir("tests")
+    folder.joinpath("test_own.py").write_text("def test_own(): pass")
+    project.chdir()
+    done = project.run(sys.executable, "-c", f"import os, pytest; os.chdir({str(folder)!r}); "
+                       "raise SystemExit(pytest.main(['-q']))")  # fmt: skip
+    assert done.ret == 0
 
 
 @pytest.mark.slow
