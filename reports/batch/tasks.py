@@ -12,6 +12,7 @@ from ...cases.trajectory import Trajectory
 from ...engines import guest
 from ...engines.engine import Engine, Plan, Realised, Refusal
 from ...reference.solve import Solution, solve
+from ..compare.events.timing import Timing, timing
 from ..compare.judge.compare import Outcome, answered, compare
 from ..compare.judge.uncertified import failing, uncertified
 from ..compare.trial import states
@@ -56,6 +57,10 @@ class Pair:
         """From the store; where that has none, as on a machine that does not share it, anew."""
         return _at_hand(self.store, self.key) or solve(self.case).trajectory
 
+    def timing(self, reference: Trajectory) -> Timing:
+        """The events in the reference, read once for all engines that a process meets here."""
+        return _timings(self.store, self.key).setdefault("", timing(self.case, reference))
+
     @property
     def sampled(self) -> Case:
         """The case with the samples that the engine's own step meets."""
@@ -78,7 +83,8 @@ class Unit:
         """The unit's runs, each on its own; the reference of the case's own samples will do."""
         if isinstance(self.way, Refusal):
             return {}
-        trial = Trial(self.pair.sampled, reference, self.pair.engine, self.way)
+        pair, timed = self.pair, self.pair.timing(reference)
+        trial = Trial(pair.sampled, reference, pair.engine, self.way, timed=timed)
         return rungs(trial) if trial.case.states is None else {states.AT: states.asked(trial)}
 
 
@@ -126,7 +132,7 @@ def judged(climb: Climb) -> Outcome:
     if case.states is not None:
         return answered(Trial(case, reference, pair.engine, way), climb.found[states.AT])
     if case is pair.case:
-        trial = Trial(case, reference, pair.engine, way)
+        trial = Trial(case, reference, pair.engine, way, timed=pair.timing(reference))
         return compare(trial, gathered(trial, climb.found))
     solution, unsure = _at_own_samples(case)
     way = replace(way, withheld={**way.withheld, **dict.fromkeys(unsure, _UNSURE)})
@@ -155,3 +161,9 @@ def _at_own_samples(case: Case) -> tuple[Solution, set[str]]:
 def _at_hand(store: Store, key: str) -> Trajectory | None:
     solution: Solution | None = store.get(key, Solution)
     return None if solution is None else solution.trajectory
+
+
+@lru_cache(AT_HAND)
+def _timings(store: Store, key: str) -> dict[str, Timing]:
+    """Remembers the timing of a case's reference once it is asked for."""
+    return {}

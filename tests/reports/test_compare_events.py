@@ -13,6 +13,7 @@ from given.otherwise import otherwise
 from textmech.cases.case import Case, Deviation, Event
 from textmech.cases.trajectory import Trajectory
 from textmech.reports.compare.events.times import never
+from textmech.reports.compare.events.timing import Timing
 from textmech.reports.compare.judge import compare as comparing
 from textmech.reports.compare.judge.compare import Outcome, compare
 from textmech.reports.compare.trial.trial import Trial
@@ -64,7 +65,7 @@ def test_times_above_the_tolerance_fail_or_are_beyond(trial: Make, stopping: Cas
 def test_a_late_event_that_the_ladder_does_not_look_at_is_named(
     trial: Make, stopping: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Trial, "surely", lambda self, event, step: np.arange(1))  # then too short
+    monkeypatch.setattr(Timing, "surely", lambda self, event, step: np.arange(1))  # then too short
     monkeypatch.setattr(Event, "crosses", property(lambda self: True))
     late = {"stops": (STOPS[0], STOPS[1] + 0.05), "setting": "shipped", "own_step": 1e-3}
     found = row(stopped(trial, stopping, **late), "stops.time")

@@ -116,9 +116,9 @@ def test_what_a_step_cannot_tell_is_paired_with_what_it_is(tmp_path: Path) -> No
     motion = Trajectory(record.times, record.states, {}, record=record)
     engine = Pymunk("tuned")
     trial = Trial(case, motion, engine, planned(engine, case.scene, first(motion))[0])
-    assert trial.partners("loose", happens + STEP).tolist() == [0, 1, 2]
-    assert trial.partners("loose", happens[[0, 2]] + step).tolist() == [0, 2]
-    assert trial.partners("loose", happens[[2]] - step).tolist() == [2]
+    assert trial.timing.partners("loose", happens + STEP).tolist() == [0, 1, 2]
+    assert trial.timing.partners("loose", happens[[0, 2]] + step).tolist() == [0, 2]
+    assert trial.timing.partners("loose", happens[[2]] - step).tolist() == [2]
 
 
 def judged(case: Case, engine: Engine) -> list[Comparison]:

@@ -59,7 +59,9 @@ def trial_of(pair: Pair, candidate: Candidate) -> Trial | None:
     engine, reference = candidate.engine(pair.engine.name), pair.reference()
     ways = planned(engine, pair.case.scene, first(reference))
     way = next(way for way in ways if way.realised == "native")
-    return Trial(pair.case, reference, engine, way) if isinstance(way, Plan) else None
+    if not isinstance(way, Plan):
+        return None
+    return Trial(pair.case, reference, engine, way, timed=pair.timing(reference))
 
 
 def errors(run: Run) -> Errors:
@@ -83,19 +85,18 @@ def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
     """The differences (N,), at events (K,), of a count (1,); None where there is none to take."""
     if name in trial.withheld:
         return None
+    event, timing = trial.quantity(name).part, trial.timing
     if trial.quantity(name).field == "count" and name in trial.instants:
-        event = trial.quantity(name).part
         found = samples.get(f"{event}.time")
-        return (
-            None if found is None else np.array([trial.miscounted(event, len(found), trial.step)])
-        )
+        if found is None:
+            return None
+        return np.array([timing.miscounted(event, len(found), trial.step)])
     if name not in samples:
         return None
     wanted, count = trial.wanted(name), len(samples[name])
-    event = trial.quantity(name).part
-    dated = event in trial.events and count < len(wanted)
-    if dated and not trial.miscounted(event, count, trial.step):  # what such steps tell is enough
-        wanted = wanted[trial.partners(event, samples[f"{event}.time"])]
+    dated = event in timing.events and count < len(wanted)
+    if dated and not timing.miscounted(event, count, trial.step):  # what such steps tell is enough
+        wanted = wanted[timing.partners(event, samples[f"{event}.time"])]
     if count != len(wanted):  # another count: which belongs to which?
         return np.array([inf])
     return metric.sizes(trial.read(name, samples[name]) - wanted)

@@ -53,7 +53,7 @@ def _words(trial: Trial, t: float) -> str | None:
     if not near:
         return "beside the start" if t < BESIDE * trial.step - TOGETHER else None
     switch = min(near, key=lambda s: abs(s - t))
-    named = (name for name, times in trial.events.items() if _among(switch, times))
+    named = (name for name, times in trial.timing.events.items() if _among(switch, times))
     return f"beside {next(named, 'a switch')} at {switch:.4g} s"
 
 

@@ -52,9 +52,10 @@ def judge(
 
 def _count(trial: Trial, event: str, found: Array) -> Comparison:
     """Whether the event happens as often as in the reference, as far as steps can tell."""
-    name, most = f"{event}.count", len(trial.events[event])
-    least = most if len(found) == most else len(trial.surely(event, trial.step))
-    off = trial.miscounted(event, len(found), trial.step)
+    name, timing = f"{event}.count", trial.timing
+    most = len(timing.events[event])
+    least = most if len(found) == most else len(timing.surely(event, trial.step))
+    off = timing.miscounted(event, len(found), trial.step)
     short = f" (of which {least} last long enough for this step)" if least < most else ""
     why = f"reference {most}{short}, engine {len(found)}"
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
@@ -63,11 +64,11 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
 
 def _each(trial: Trial, name: str, samples: Samples, runs: Runs) -> Comparison:
     """Times or states in their order, as many as both have; the count is another row's matter."""
-    event, found = trial.quantity(name).part, samples[name]
-    times, partners = trial.events[event], trial.partners(event, samples[f"{event}.time"])
+    event, found, timing = trial.quantity(name).part, samples[name], trial.timing
+    times, partners = timing.events[event], timing.partners(event, samples[f"{event}.time"])
     both = len(partners)
     if not both:
-        told = not len(times) or len(trial.surely(event, trial.step))
+        told = not len(times) or len(timing.surely(event, trial.step))
         why = NEVER if told else TOO_SHORT.format(trial.step)
         return row(trial, name, REFUSED, because=why)
     error = metric.error(found[:both], trial.wanted(name)[partners])
@@ -95,16 +96,17 @@ def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
 
     They compare the events that the largest step of all can tell, or else the first.
     """
-    wanted, event = trial.wanted(name), trial.quantity(name).part
+    wanted, event, timing = trial.wanted(name), trial.quantity(name).part, trial.timing
     for ladder, climbed in runs.ladders.items():
         first = _first(trial, name, climbed)
 
         def off(h: float, samples: Samples, first: int = first) -> float:
             found = samples[name]
-            least = max(first, len(trial.surely(event, h))) if len(found) < len(wanted) else first
+            sure = len(timing.surely(event, h)) if len(found) < len(wanted) else 0
+            least = max(first, sure)
             if not least <= len(found) <= len(wanted):
                 return np.inf
-            partners = trial.partners(event, samples[f"{event}.time"])[:first]
+            partners = timing.partners(event, samples[f"{event}.time"])[:first]
             return metric.error(found[:first], wanted[partners]).largest
 
         errors = {h: off(h, samples) for h, samples in sorted(climbed.items())}
@@ -118,7 +120,7 @@ def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:
     whole = all(len(samples[name]) == most for samples in climbed.values())
     if whole and not trial.case.events[event].crosses:
         return max(1, most)
-    return max(1, min((len(trial.surely(event, h)) for h in climbed), default=1))
+    return max(1, min((len(trial.timing.surely(event, h)) for h in climbed), default=1))
 
 
 def listed(trial: Trial, samples: Samples) -> list[Instant]:
@@ -135,7 +137,7 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
             time=_told(trial, event, t),
             difference=None if wanted is None else _told(trial, event, t - wanted),
         )
-        for event, times in trial.events.items()
+        for event, times in trial.timing.events.items()
         for found in [samples.get(f"{event}.time", np.zeros(0))]
         for k, (t, wanted) in enumerate(_paired(trial, event, found, times), start=1)
     ]
@@ -145,7 +147,7 @@ def _paired(
     trial: Trial, event: str, found: Array, times: Array
 ) -> Iterator[tuple[float, float | None]]:
     """Each of the engine's times [s] with that of the reference, where it has a partner."""
-    wanted = times[trial.partners(event, found)].tolist()
+    wanted = times[trial.timing.partners(event, found)].tolist()
     return zip_longest(found.tolist(), wanted)
 
 

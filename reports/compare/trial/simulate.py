@@ -42,7 +42,7 @@ def rungs(trial: Trial) -> dict[At, Rung]:
             bounds,
             poses=ladder is climbs[0] and h == trial.step,  # the judged run is looked at
             fastest=trial.reference.fastest,
-            events=trial.read_by(h),
+            events=trial.timing.known(h),
         )
         for ladder in climbs
         for h in reversed(ladder.steps)
@@ -53,7 +53,7 @@ def rung(trial: Trial, step: float) -> Rung:
     """One run at a step [s], which the numbers of its plan follow."""
     return Rung(
         trial.case, trial.engine, trial.start, trial.plan, step, _bounds(trial),
-        fastest=trial.reference.fastest, events=trial.read_by(step),
+        fastest=trial.reference.fastest, events=trial.timing.known(step),
     )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
 from ...system.table_text import why
 from ..events.states import reference_states
-from ..events.times import Known, jumped, nearest, reading, reference_events, surely
+from ..events.timing import Timing, timing
 from .answers import plans
 from .ladder import judged_step
 from .start import first
@@ -67,6 +67,7 @@ class Trial:
     engine: Engine
     way: Plan | Refusal
     sampled: bool = False  # the case's samples are not its own: the engine's step misses those
+    timed: Timing | None = None  # of the same reference
 
     @property
     def realised(self) -> Realised:
@@ -136,87 +137,19 @@ class Trial:
         return [name for name in judged_names(self.case) if name not in self.withheld]
 
     @cached_property
-    def events(self) -> dict[str, Array]:
-        """The reference's times (K,) of every event of the case."""
-        record = self.reference.record
-        if record is None:
-            return {name: np.zeros(0) for name in self.case.events}
-        return {
-            name: reference_events(self.case.scene, record, event)
-            for name, event in self.case.events.items()
-        }
-
-    def surely(self, event: str, step: float) -> NDArray[np.int64]:
-        """Which of the reference's events an engine with this step has to tell."""
-        record, named = self.reference.record, self.case.events[event]
-        if record is None:
-            return np.arange(0)
-        if (event, step) not in self._sure:
-            scene, share = self.case.scene, self.shares(step)[event]
-            sure = surely(scene, record, named, self.events[event], step, share)
-            self._sure[event, step] = sure
-        return self._sure[event, step]
-
-    @cached_property
-    def _sure(self) -> dict[tuple[str, float], NDArray[np.int64]]:
-        """Remembers which are sure: each row asks for each rung."""
-        return {}
-
-    def miscounted(self, event: str, count: int, step: float) -> float:
-        """By how many an engine's events are fewer than such steps tell, or more than there are."""
-        most = len(self.events[event])
-        least = most if count >= most else len(self.surely(event, step))
-        return float(max(least - count, count - most, 0))
-
-    def partners(self, event: str, times: Array) -> NDArray[np.int64]:
-        """Which of the reference's events an engine's, at these times [s], are compared with.
-
-        Where it has fewer they are the nearest, in order; of more than there are the first.
-        """
-        wanted = self.events[event]
-        return nearest(times, wanted) if len(times) < len(wanted) else np.arange(len(wanted))
-
-    def shares(self, step: float) -> dict[str, float]:
-        """How the rests of each event are read from steps so large."""
-        record, scene = self.reference.record, self.case.scene
-        if record is not None and step not in self._shares:
-            self._shares[step] = {
-                name: reading(scene, record, event, self.events[name], step)
-                for name, event in self.case.events.items()
-            }
-        return self._shares.get(step) or dict.fromkeys(self.case.events, 0.0)
-
-    @cached_property
-    def _shares(self) -> dict[float, dict[str, float]]:
-        """Remembers the shares by step: two ladders ask for the same one."""
-        return {}
-
-    def read_by(self, step: float) -> dict[str, Known]:
-        """How the rests of each event are read from such steps, and when it happens or might."""
-        return {
-            name: Known(share, (*self.events[name].tolist(),), self._jumps[name])
-            for name, share in self.shares(step).items()
-        }
-
-    @cached_property
-    def _jumps(self) -> dict[str, tuple[float, ...]]:
-        """When [s] the reference jumps across an event's value, which each rung has to know."""
-        scene, record = self.case.scene, self.reference.record
-        if record is None:
-            return dict.fromkeys(self.case.events, ())
-        return {
-            name: (*jumped(scene, record, event, self.events[name]).tolist(),)
-            for name, event in self.case.events.items()
-        }
+    def timing(self) -> Timing:
+        """The reference's events; one that other trials of the case use too, where it was given."""
+        return self.timed or timing(self.case, self.reference)
 
     @cached_property
     def _at_events(self) -> dict[str, Array]:
         """The reference's times (K,) and states (K,) of what is judged of events."""
-        found = {f"{event}.time": times for event, times in self.events.items()}
+        events = self.timing.events
+        found = {f"{event}.time": times for event, times in events.items()}
         for name in self.case.allow:
             at, record = at_event(name, self.case.events), self.reference.record
             if at is not None and record is not None:
-                found[name] = reference_states(self.case, record, at, self.events[at.event])
+                found[name] = reference_states(self.case, record, at, events[at.event])
         return found
 
     def away(self, distance: float) -> NDArray[np.bool_]:

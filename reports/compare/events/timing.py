@@ -1,0 +1,95 @@
+"""When the events of a reference happen, and what steps of some size can tell of them.
+
+Every rung of every engine asks the same, so that it is computed once for all of them.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....cases.case import Case, Event
+from ....cases.scene import Scene
+from ....cases.trajectory import Array, Trajectory
+from .times import Known, jumped, nearest, reading, reference_events, surely
+
+
+@dataclass(frozen=True)
+class Timing:
+    """The events of a scene in the record of its reference; without a record there are none."""
+
+    scene: Scene
+    named: Mapping[str, Event]
+    record: Trajectory | None
+
+    @cached_property
+    def events(self) -> dict[str, Array]:
+        """The reference's times (K,) [s] of every event."""
+        if self.record is None:
+            return {name: np.zeros(0) for name in self.named}
+        return {
+            name: reference_events(self.scene, self.record, event)
+            for name, event in self.named.items()
+        }
+
+    def surely(self, event: str, step: float) -> NDArray[np.int64]:
+        """Which of the reference's events an engine with this step [s] has to tell."""
+        if self.record is None:
+            return np.arange(0)
+        if (event, step) not in self._sure:
+            happened, share = self.events[event], self.known(step)[event].share
+            self._sure[event, step] = surely(
+                self.scene, self.record, self.named[event], happened, step, share
+            )
+        return self._sure[event, step]
+
+    def miscounted(self, event: str, count: int, step: float) -> float:
+        """By how many an engine's events are fewer than such steps tell, or more than there are."""
+        most = len(self.events[event])
+        least = most if count >= most else len(self.surely(event, step))
+        return float(max(least - count, count - most, 0))
+
+    def partners(self, event: str, times: Array) -> NDArray[np.int64]:
+        """Which of the reference's events an engine's, at these times [s], are compared with.
+
+        Where it has fewer they are the nearest, in order; of more than there are the first.
+        """
+        wanted = self.events[event]
+        return nearest(times, wanted) if len(times) < len(wanted) else np.arange(len(wanted))
+
+    def known(self, step: float) -> dict[str, Known]:
+        """How each event is read from such steps [s], and when it happens or might."""
+        if step not in self._known:
+            self._known[step] = {name: self._read(name, step) for name in self.named}
+        return self._known[step]
+
+    def _read(self, name: str, step: float) -> Known:
+        happened, share = self.events[name], 0.0
+        if self.record is not None:
+            share = reading(self.scene, self.record, self.named[name], happened, step)
+        return Known(share, (*happened.tolist(),), self._jumps[name])
+
+    @cached_property
+    def _jumps(self) -> dict[str, tuple[float, ...]]:
+        """When [s] the reference jumps across an event's value, which each rung has to know."""
+        if self.record is None:
+            return dict.fromkeys(self.named, ())
+        return {
+            name: (*jumped(self.scene, self.record, event, self.events[name]).tolist(),)
+            for name, event in self.named.items()
+        }
+
+    @cached_property
+    def _sure(self) -> dict[tuple[str, float], NDArray[np.int64]]:
+        return {}
+
+    @cached_property
+    def _known(self) -> dict[float, dict[str, Known]]:
+        return {}
+
+
+def timing(case: Case, reference: Trajectory) -> Timing:
+    """The timing of a case's events in its reference."""
+    return Timing(case.scene, case.events, reference.record)
