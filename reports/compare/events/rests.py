@@ -14,7 +14,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ....cases.scene.passages import polynomial
 from ....cases.trajectory import Array
 
 LOW, HIGH = 0.02, 0.04  # of the largest value
@@ -147,12 +146,20 @@ def continued(times: Array, u: Array, zero: float, away: int) -> float:
             break
         if not np.all(steps * u[rows[0]] > 0.0):
             continue  # it does not grow from the rest on: no curve of u
-        found, other = (_at_zero(times[rows[:n]], u[rows[:n]]) for n in (THROUGH, FEWER))
+        other, found = _at_zero(times[rows], u[rows])
         if abs(found - other) < min(apart, abs(found - zero)) and abs(found - zero) < h:
             best, apart = found, abs(found - other)
     return best
 
 
-def _at_zero(times: Array, u: Array) -> float:
-    """t where u is 0."""
-    return polynomial(u, times)(0.0)
+def _at_zero(times: Array, u: Array) -> tuple[float, float]:
+    """t where u is 0, of the curves through the first `FEWER` points and through all of them.
+
+    By Neville's scheme; from the first time on, or what is left of each digit would be rounding.
+    """
+    x, t = u.tolist(), (times - times[0]).tolist()
+    firsts = []
+    for k in range(1, len(x)):
+        t = [(x[i] * t[i + 1] - x[i + k] * t[i]) / (x[i] - x[i + k]) for i in range(len(x) - k)]
+        firsts.append(float(times[0]) + t[0])
+    return firsts[FEWER - 2], firsts[-1]

@@ -24,7 +24,6 @@ NOISE = 0.7  # a halved step halves a difference of first order; noise keeps it
 FEWEST = 3  # samples away from events, or they say nothing of a motion
 GROWN = 2.0  # two differences of noise: drawn, 0.3 % of 26 samples and 7 % of five exceed it
 FAR = 100  # differences: what is further off is not reached by what they grow to
-OF_ALLOW = 0.1  # an uncertainty above this part of `allow` decides nothing
 CLEAR = 0.5  # by what the last three orders of the errors' size may differ
 SLOWEST = 0.25  # the least order of a size that falls at every halving: half in four of them
 FALLEN = 2.0  # the factor by which errors fall over a ladder, or within which they stay
@@ -92,7 +91,7 @@ def study(
     settled = _settled(off, uncertainty, allow)
     left = _left(rungs, exponents[0])
     doubt = max(left, 0.0 if behind is None else _late(rungs, behind[keep]))
-    if settled == TEXTBOOK and left > OF_ALLOW * allow:
+    if settled == TEXTBOOK and left > metric.OF_ALLOW * allow:
         settled, uncertainty = None, max(uncertainty, left)
     doubt = max(doubt, _grown(rungs, size.sizes, off))
     if settled in (WITHIN, ANOTHER) and off <= ANOTHER_BEYOND * doubt:
@@ -126,7 +125,7 @@ def _amplified(exponents: Sequence[int]) -> float:
 def _settled(off: float, uncertainty: float, allow: float) -> str | None:
     """The verdict of a limit that is `off` the reference, or None where it tells nothing."""
     near = off <= TEXTBOOK_WITHIN * uncertainty or off <= TEXTBOOK_BELOW * allow
-    if near and uncertainty <= OF_ALLOW * allow:
+    if near and uncertainty <= metric.OF_ALLOW * allow:
         return TEXTBOOK
     if off > ANOTHER_BEYOND * uncertainty:
         return WITHIN if off <= allow else ANOTHER

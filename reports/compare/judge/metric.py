@@ -70,7 +70,7 @@ EPSILON = 2.2e-16
 MARGIN = 10  # × the estimate; measured: below 0.2 × it, but 90 × in a linkage near its dead point
 
 
-OF_ALLOW = 0.1  # of `allow`: a bound above it would hide what a verdict is about
+OF_ALLOW = 0.1  # of `allow`: a bound or an uncertainty above it hides what a verdict is about
 
 
 def floor(trial: Trial, name: str, step: float) -> float:
