@@ -23,9 +23,9 @@ def slope(mode: Mode) -> Slope:
     n = len(mode.coordinates)
 
     def f(t: float, y: Vector) -> Vector:
-        y_dot = np.empty_like(y)
-        y_dot[:n] = mode.rates(t, y[:n], y[n:])
-        y_dot[n:] = mode.accelerations(t, y[:n], y[n:])
+        q, v, y_dot = y[:n], y[n:], np.empty_like(y)
+        y_dot[:n] = mode.rates(t, q, v)
+        y_dot[n:] = mode.accelerations(t, q, v)
         return y_dot
 
     return f
@@ -44,9 +44,8 @@ class Watched:
     def __call__(self, t: float, y: Vector) -> Vector:
         self.y = y
         self.calls += 1
-        self.earliest = min(
-            self.earliest, t
-        )  # others look ahead, at what comes later or is refused
+        if t < self.earliest:  # others look ahead, at what comes later or is refused
+            self.earliest = t
         if self.calls % WATCHED == 0:
             if self.earliest - self.mark < CRAWL * self.duration:
                 raise IntegrationError("the steps shrink to nothing", t)

@@ -330,7 +330,10 @@ def _at_rest(held: Held, a: Array, free: Array, multipliers: Array) -> Array:
     Otherwise a body that sticks at the origin would tremble by 1e-17, which is no size for a step.
     The forces may all be multipliers: of a block between two that stick to it.
     """
+    small = CANCELS * max(map(abs, free.tolist()))
+    if min(map(abs, a.tolist())) > small:  # as nearly always, and told without arrays
+        return a
     size = np.abs(a)
-    if ((size <= CANCELS * np.abs(free).max()) & (size > 0.0)).any():
+    if ((size <= small) & (size > 0.0)).any():
         a[size <= CANCELS * (np.abs(free) + held.pulls(multipliers))] = 0.0
     return a
