@@ -25,6 +25,12 @@ def questions() -> dict[str, Path]:
     return _in(Path(__file__).parent / QUESTIONS)
 
 
+def is_shipped(file: Path | str) -> bool:
+    """Whether the file is one that comes with the suite: told by its place, for rows ask often."""
+    path, home = Path(file).resolve(), Path(__file__).resolve().parent
+    return path.parent in (home, home / QUESTIONS) and path.suffix == ".yaml" and path.is_file()
+
+
 def _in(folder: Path) -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
 

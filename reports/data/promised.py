@@ -7,10 +7,9 @@ has promised: where it does not, that is the answer to his question.
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
 
 from ...cases.case import Case
-from ...cases.find import shipped
+from ...cases.find import is_shipped
 from .row import AGREES, BEYOND, DEVIATES, DIVERGED, FAILS, REFUSED, Comparison
 
 OURS = "tuned"
@@ -18,8 +17,7 @@ OURS = "tuned"
 
 def ships(case: Case) -> bool:
     """Whether it is a case that comes with the suite, and no file of somebody else's."""
-    file = shipped().get(Path(case.source.file).stem)
-    return file is not None and file.resolve() == Path(case.source.file).resolve()
+    return is_shipped(case.source.file)
 
 
 def answered(case: Case, rows: Iterable[Comparison]) -> list[Comparison]:

@@ -8,10 +8,9 @@ near what is measured, no bar is typed by the suite, and no verdict depends on a
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
-from pathlib import Path
 
 from ...cases.case import Case
-from ...cases.find import shipped
+from ...cases.find import is_shipped
 from ..batch.search.causes import Known
 from ..data.ownership import HERE
 from ..data.row import Cause, Comparison, rank
@@ -54,10 +53,7 @@ def committed_causes() -> Known:
 def before(case: Case, key: Key, version: str, step: float | None) -> Comparison | None:
     """Returns the committed row of the same question; None: another case, version or step."""
     found = rows().get(key)
-    file = shipped().get(case.name.partition(".")[0])
-    if found is None or file is None or found.version != version:
-        return None
-    if file.resolve() != Path(case.source.file).resolve():
+    if found is None or found.version != version or not is_shipped(case.source.file):
         return None
     if step and found.step and abs(step - found.step) > SAME_STEP * step:
         return None

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from textmech.cases import titled as listing
-from textmech.cases.find import shipped
+from textmech.cases.find import is_shipped, shipped
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.titled import titled
@@ -41,3 +41,13 @@ def test_a_list_of_a_mistaken_file_says_where(head: str, key: str, tmp_path: Pat
     with pytest.raises(CaseError) as caught:
         titled(file)
     assert key in {m.where for m in caught.value.mistakes}
+
+
+def test_a_shipped_file_is_told_by_its_place(tmp_path: Path) -> None:
+    assert all(map(is_shipped, shipped().values()))
+    mine = tmp_path / "four_bar.yaml"
+    mine.write_bytes(shipped()["four_bar"].read_bytes())
+    (tmp_path / "cases").symlink_to(shipped()["four_bar"].parent)
+    assert not is_shipped(mine)
+    assert is_shipped(tmp_path / "cases" / "four_bar.yaml")
+    assert not is_shipped(shipped()["four_bar"].with_name("no_such_case.yaml"))

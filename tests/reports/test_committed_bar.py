@@ -23,9 +23,7 @@ NOTHING = Comparison(**{field.name: None for field in fields(Comparison)})  # ty
 @pytest.fixture
 def as_shipped(moving: Case, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
     """The free body's case as a shipped one, with a committed row of the tuned ball."""
-    from pathlib import Path
-
-    monkeypatch.setattr(committed, "shipped", lambda: {"moving": Path(moving.source.file)})
+    monkeypatch.setattr(committed, "is_shipped", lambda file: file == moving.source.file)
 
     def with_row(**said: Any) -> None:
         usual = {"version": "4.0.0", "step": 1e-3, "error": 1e-3, "verdict": AGREES}

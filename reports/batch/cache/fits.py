@@ -11,7 +11,7 @@ import numpy as np
 
 def fits(value: Any, kind: Any) -> bool:
     """Whether the value is of that kind, as an annotation says it, with all that it holds."""
-    made, of = get_origin(kind) or kind, get_args(kind)
+    made, of = _parted(kind)
     if kind is Any:
         return True
     if made in (Union, UnionType):
@@ -55,6 +55,12 @@ def _all(value: tuple[Any, ...], of: tuple[Any, ...]) -> bool:
 
 def _mapped(value: Mapping[Any, Any], key: Any, held: Any) -> bool:
     return all(fits(k, key) and fits(v, held) for k, v in value.items())
+
+
+@cache
+def _parted(kind: Any) -> tuple[Any, tuple[Any, ...]]:
+    """What it is made of: `tuple[float, ...]` → tuple and (float, ...)."""
+    return get_origin(kind) or kind, get_args(kind)
 
 
 @cache
