@@ -59,7 +59,7 @@ def _mapped(value: Mapping[Any, Any], key: Any, held: Any) -> bool:
 
 @cache
 def _parted(kind: Any) -> tuple[Any, tuple[Any, ...]]:
-    """What it is made of: `tuple[float, ...]` → tuple and (float, ...)."""
+    """Takes an annotation apart: `tuple[float, ...]` → tuple and (float, ...)."""
     return get_origin(kind) or kind, get_args(kind)
 
 
