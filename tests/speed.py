@@ -2,7 +2,8 @@
 
 Seconds are a machine's own. So each stands beside its bound, which is meant for two idle cores of a
 server, and its CPU time is told as a ratio too: over that of a plain loop of MuJoCo's steps, which
-is measured in the same run. The next reader compares the ratios.
+is measured before and after it, for a machine that others use is now fast and now slow. The next
+reader compares the ratios.
 """
 
 import csv
@@ -121,12 +122,13 @@ def measured(clone: Clone) -> Iterator[tuple[str, Spent, float, str]]:
 
 def figures(clone: Clone) -> Iterator[Figure]:
     """Each as soon as it is known."""
-    unit: Spent | None = None
+    before: float | None = None
     for what, spent, bound, of in measured(clone):
-        if unit is None:
-            unit = clone.least(clone.folder / ".venv" / "bin" / "python", "-c", LOOP)
+        after = clone.least(clone.folder / ".venv" / "bin" / "python", "-c", LOOP).cpu
+        unit = after if before is None else (before + after) / 2
         kept = "yes" if getattr(spent, of) <= bound else "no"
-        yield Figure(what, spent.wall, spent.cpu, spent.cpu / unit.cpu, bound, of, kept)
+        yield Figure(what, spent.wall, spent.cpu, spent.cpu / unit, bound, of, kept)
+        before = after
 
 
 def write(found: Sequence[Figure]) -> None:
