@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from ...cases.case import Case
-from ...cases.find import shipped
+from ...cases.find import is_shipped
 from ..batch.search.why import Key, key_of
 from ..data.row import UNSEARCHED, Cause
 from ..data.short_numbers import milliseconds
@@ -22,8 +22,7 @@ OURS = ("our force law", "our driver")  # which go on in the report
 
 def committed(cases: Sequence[Case]) -> Cures:
     """Returns the cures of those cases that are shipped ones, from the committed report."""
-    files = {path.resolve() for path in shipped().values()}
-    ours = {case.name for case in cases if Path(case.source.file).resolve() in files}
+    ours = {case.name for case in cases if is_shipped(case.source.file)}
     return {key: cure for key, cure in cures(HERE).items() if key[0] in ours}
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.interpolate import KroghInterpolator
 from scipy.optimize import brentq
 
 from textmech.cases.case import Event
@@ -87,6 +88,18 @@ def slips(h: float, bent: Callable[[Array], Array] = lambda u: u) -> list[float 
 @pytest.mark.parametrize(("h", "near"), [(1e-4, 1e-11), (1e-3, 1e-11), (5e-3, 1e-9)])
 def test_two_stick_slip_cycles(h: float, near: float) -> None:
     assert slips(h) == pytest.approx(SLIPS, abs=near)
+
+
+def test_both_curves_are_those_of_scipy() -> None:
+    """By divided differences, whose sums have no term of Neville's."""
+    random = np.random.default_rng(5)
+    for _ in range(100):
+        h = 10.0 ** random.uniform(-5, -2)
+        t = random.uniform(0, 10) - h * np.arange(reading.THROUGH)
+        u = np.cumsum(random.uniform(0.8, 1.2, len(t))) * random.choice([-1.0, 1.0])
+        found = reading._at_zero(t, u)
+        for rows, zero in zip((reading.FEWER, reading.THROUGH), found, strict=True):
+            assert zero == pytest.approx(KroghInterpolator(u[:rows], t[:rows])(0.0), abs=1e-12)
 
 
 @pytest.mark.mutant("a rest without the steps beside it")

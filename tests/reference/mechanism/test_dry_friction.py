@@ -20,6 +20,7 @@ from textmech.cases.scene import (
 )
 from textmech.reference.formalisms import lagrange
 from textmech.reference.mechanism.constraints.factorization import Full
+from textmech.reference.mechanism.modes import mode
 from textmech.reference.mechanism.modes.mechanism import PlanarMechanism
 from textmech.reference.mechanism.modes.smooth import SmoothMultibody
 from textmech.reference.motion.follow import follow
@@ -157,3 +158,22 @@ def test_rounding_that_moves_what_is_held_is_seen(
     monkeypatch.setattr(Full, "pulls", lambda self, multipliers: 0.0)
     with pytest.raises(CaseError, match="the steps shrink to nothing"):
         solve(scenes.typed(tmp_path, STACKED, tail=scenes.tail(1.0, 41)))
+
+
+def rested(*a: float) -> list[float]:
+    """What is left of accelerations beside forces that would give 10 m/s² each."""
+    held = Full(np.zeros((0, len(a))), np.zeros(0), np.zeros((0, len(a))), False, ())
+    return mode._at_rest(held, np.array(a), np.full(len(a), 10.0), np.zeros(0)).tolist()
+
+
+def test_only_what_is_rounding_rests() -> None:
+    """One of 1e-16 m/s² is what two of 10 leave of each other, and one of 1e-13 is not."""
+    assert rested(5.0, 1e-16, -1e-16, 1e-13, 0.0) == [5.0, 0.0, 0.0, 1e-13, 0.0]
+    assert rested(5.0, 1e-13) == [5.0, 1e-13]
+
+
+@pytest.mark.mutant("rounding beside what moves is looked at where nothing moves alone")
+def test_rounding_beside_what_moves_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mode, "min", max, raising=False)
+    assert rested(5.0, 1e-16) == [5.0, 1e-16]
+    assert rested(1e-16, 1e-16) == [0.0, 0.0]
