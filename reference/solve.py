@@ -17,6 +17,7 @@ import scipy
 from ..cases.case import Case
 from ..cases.language.check import cost
 from ..cases.mistake import CaseError, Mistake
+from ..cases.scene.frame import SPACE
 from ..cases.scene.quantity import table, told_by
 from ..cases.trajectory import Trajectory
 from .assumptions import check_premises, check_start, pressed
@@ -28,13 +29,15 @@ from .determined import check_determined
 from .integrators.budget import apart
 from .integrators.now import begun, doing
 from .islands import Island, parts, together
-from .mechanism.modes.mechanism import Mechanism
+from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .refusal import bounded, refusals, unreached
-from .start.assembly import mechanism
+from .start.assembly import as_good, assembled, closure_of
+from .start.planar_closure import PlanarClosure
+from .start.spatial_closure import SpatialClosure
 from .states.answer import answered
-from .system import Pose, System
+from .system import Array, Pose, System, instant
 from .systems import written as written_system
 from .systems.states.stated import STATED
 
@@ -116,6 +119,24 @@ def _solved(case: Case) -> Island:
             raise unreached(case, *built.turns.missed)
         checks = (*certify(case, answer, built, generated, motion, marched), *opened)
     return Island(case, motion, checks, generated.base)
+
+
+def mechanism(case: Case) -> Mechanism:
+    """The mechanism of a case's scene at its start. Raises CaseError as `assemble` does."""
+    closure = closure_of(case)
+    q, v = assembled(closure)
+    found = _at(case, closure, q, v)
+    if (other := as_good(closure, q, v)) is not None:
+        found.beside = _at(case, closure, *other)
+    return found
+
+
+def _at(case: Case, closure: PlanarClosure | SpatialClosure, q: Array, v: Array) -> Mechanism:
+    if case.scene.frame is SPACE:
+        return SpatialMechanism(case.scene, (q, v))
+    inner = [force.begins for force in case.scene.inner().values()]
+    start = np.append(q, inner), v
+    return PlanarMechanism(case.scene, start, closure.size, instant(case.duration))
 
 
 def _written(case: Case) -> System | None:

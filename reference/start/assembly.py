@@ -1,4 +1,4 @@
-"""The start of a case: what it gives, what the constraints make of that, and the mechanism there.
+"""The start of a case: what it gives, and what the constraints make of that.
 
 Positions by Newton's method from guesses, rates by linear algebra; in the plane and in space.
 """
@@ -8,8 +8,7 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.mistake import CaseError
 from ...cases.scene.frame import SPACE
-from ..mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
-from ..system import Array, Pose, instant
+from ..system import Array, Pose
 from . import messages
 from .planar_closure import PlanarClosure
 from .positions import positions
@@ -23,25 +22,7 @@ ILL = 5e-3  # of rad or sizes: a chain of 100 has 0.016, shipped mechanisms 0.1 
 SHORT = 1e-9  # of the mechanism's size: a rod of that length has no direction
 
 
-def mechanism(case: Case) -> Mechanism:
-    """The mechanism of a case's scene at its start. Raises CaseError as `assemble` does."""
-    closure = closure_of(case)
-    q, v = _assembled(closure)
-    found = _at(case, closure, q, v)
-    if (other := _as_good(closure, q, v)) is not None:
-        found.beside = _at(case, closure, *other)
-    return found
-
-
-def _at(case: Case, closure: PlanarClosure | SpatialClosure, q: Array, v: Array) -> Mechanism:
-    if case.scene.frame is SPACE:
-        return SpatialMechanism(case.scene, (q, v))
-    inner = [force.begins for force in case.scene.inner().values()]
-    start = np.append(q, inner), v
-    return PlanarMechanism(case.scene, start, closure.size, instant(case.duration))
-
-
-def _as_good(
+def as_good(
     closure: PlanarClosure | SpatialClosure, q: Array, v: Array
 ) -> tuple[Array, Array] | None:
     """Another start, as far off along what is determined worst as rounding of the equations allows.
@@ -80,10 +61,11 @@ def assemble(case: Case) -> tuple[Array, Array]:
     Raises CaseError if the constraints are not independent, the mechanism cannot be assembled
     or can be in two ways, or a coordinate or rate stays undetermined.
     """
-    return _assembled(closure_of(case))
+    return assembled(closure_of(case))
 
 
-def _assembled(closure: PlanarClosure | SpatialClosure) -> tuple[Array, Array]:
+def assembled(closure: PlanarClosure | SpatialClosure) -> tuple[Array, Array]:
+    """The start that these equations have, as `assemble` gives it. Raises CaseError as it does."""
     q = positions(closure)
     _long(closure, q)
     part = closure.dependent(q, RANK)

@@ -59,7 +59,10 @@ class Pair:
 
     def timing(self, reference: Trajectory) -> Timing:
         """The events in the reference, read once for all engines that a process meets here."""
-        return _timings(self.store, self.key).setdefault("", timing(self.case, reference))
+        read = _timings(self.store, self.key)
+        if not read:
+            read.append(timing(self.case, reference))
+        return read[0]
 
     @property
     def sampled(self) -> Case:
@@ -164,6 +167,6 @@ def _at_hand(store: Store, key: str) -> Trajectory | None:
 
 
 @lru_cache(AT_HAND)
-def _timings(store: Store, key: str) -> dict[str, Timing]:
-    """Remembers the timing of a case's reference once it is asked for."""
-    return {}
+def _timings(store: Store, key: str) -> list[Timing]:
+    """Where the timing of a case's reference is kept once it has been asked for."""
+    return []

@@ -8,7 +8,7 @@ from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.reference.solve import Solution, solve
-from textmech.reference.start.assembly import mechanism as generated
+from textmech.reference.solve import mechanism as generated
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import usable
 

@@ -17,8 +17,7 @@ from textmech.cases.mistake import CaseError
 from textmech.reference import assumptions
 from textmech.reference.assumptions import check_premises
 from textmech.reference.motion.follow import follow
-from textmech.reference.solve import solve
-from textmech.reference.start.assembly import mechanism
+from textmech.reference.solve import mechanism, solve
 from textmech.reference.systems import written
 
 NAMES = list(scenes.SHIPPED)

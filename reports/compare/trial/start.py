@@ -4,7 +4,7 @@ from ....cases.case import Case
 from ....cases.trajectory import Trajectory
 from ....engines.engine import Start
 from ....reference.start.assembly import start_poses
-from ....reference.states.answer import first_state
+from ....reference.system import Pose
 
 
 def first(reference: Trajectory) -> Start:
@@ -14,5 +14,12 @@ def first(reference: Trajectory) -> Start:
 
 def assembled(case: Case) -> Start:
     """The start of a case that nobody has solved. Raises CaseError where there is none."""
-    poses = start_poses(case) if case.states is None else first_state(case)
-    return {name: tuple(float(x) for x in pose) for name, pose in poses.items()}  # type: ignore[misc]
+    return {name: tuple(float(x) for x in pose) for name, pose in _poses(case).items()}  # type: ignore[misc]
+
+
+def _poses(case: Case) -> dict[str, Pose]:
+    if case.states is None:
+        return start_poses(case)
+    from ....reference.states.answer import first_state  # with all modes, which a motion's lacks
+
+    return first_state(case)

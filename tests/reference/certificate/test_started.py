@@ -10,7 +10,7 @@ from mpmath import acos, mp, mpf
 
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
-from textmech.reference.solve import solve
+from textmech.reference.solve import mechanism, solve
 from textmech.reference.start import assembly
 
 DIGITS = 40
@@ -53,4 +53,4 @@ def test_what_a_start_is_known_to_is_stated(
 
 
 def test_a_sound_start_costs_no_second_motion(tmp_path: Path) -> None:
-    assert assembly.mechanism(beside(tmp_path, 0.1)).beside is None
+    assert mechanism(beside(tmp_path, 0.1)).beside is None

@@ -15,9 +15,8 @@ from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes.stopping import Stopping
 from textmech.reference.motion import event_location as crossing
 from textmech.reference.motion.follow import follow
-from textmech.reference.solve import solve
+from textmech.reference.solve import mechanism, solve
 from textmech.reference.start import rates as start_rates
-from textmech.reference.start.assembly import mechanism
 
 M, D, V = 1.3, 0.8, 3.0  # kg, N at 1 m/s, m/s
 SCENE = """\

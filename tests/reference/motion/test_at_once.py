@@ -10,8 +10,7 @@ from textmech.cases.case import Case
 from textmech.reference.motion import follow as following
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.stuck import Stuck
-from textmech.reference.solve import solve
-from textmech.reference.start.assembly import mechanism
+from textmech.reference.solve import mechanism, solve
 
 G, RAMP = 9.80665, 1.0  # m/s², N/s
 SCENE = """\

@@ -16,8 +16,7 @@ from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Scene, Signal
 from textmech.cases.trajectory import Array
 from textmech.reference.laws import inertia, momentum, rotation
-from textmech.reference.solve import solve
-from textmech.reference.start.assembly import mechanism
+from textmech.reference.solve import mechanism, solve
 from textmech.reference.stated import Stated
 from textmech.reference.states.answer import answered, generated_mode, rows
 from textmech.reference.states.derived import derived, efforts

@@ -56,7 +56,7 @@ def test_each_event_is_read_once_at_each_step(
 
 @pytest.mark.mutant("events of a reference are read again for each setting")
 def test_reading_anew_would_be_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tasks, "_timings", lambda store, key: {})
+    monkeypatch.setattr(tasks, "_timings", lambda store, key: [])
     asked, _ = readings(tmp_path, monkeypatch)
     assert len(asked) == len(SETTINGS) * len(set(asked))
 
@@ -65,7 +65,7 @@ def test_reading_anew_would_be_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def test_what_is_read_of_another_reference_would_be_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    one: dict[str, Any] = {}
+    one: list[Any] = []
     monkeypatch.setattr(tasks, "_timings", lambda store, key: one)
     with pytest.raises(AssertionError):
         readings(tmp_path, monkeypatch)
