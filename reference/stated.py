@@ -12,6 +12,6 @@ class Stated(Mode):
     Its ingredients give every quantity once more, by the chapter's formalisms.
     """
 
-    def told(self, q: Array, v: Array, a: Array) -> Mapping[str, Any]:
+    def quantities(self, q: Array, v: Array, a: Array) -> Mapping[str, Any]:
         """By quantity, derived by hand for the accelerations a = q̈: numbers, or a matrix (n, n)."""
         return {}

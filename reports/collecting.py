@@ -32,7 +32,7 @@ Ways = tuple[tuple[str, bool], ...]
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _Planning:
     engine: Engine
     case: Case
     start: Start
@@ -65,7 +65,7 @@ class Earlier:
         """Returns the answers in a store, for the code and the engines as they are now."""
         return Earlier(store, Keys.now(store))
 
-    def ways(self, asked: Callable[[], _Asked], case: Case, engine: Engine) -> Ways:
+    def ways(self, asked: Callable[[], _Planning], case: Case, engine: Engine) -> Ways:
         """How the engine runs the case; `asked` is called where nobody has asked before."""
         key = self.keys.collected(case, engine) if self.store else ""
         found = self.store.get(key, Ways) if self.store else None
@@ -121,8 +121,8 @@ def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[K
     start = cache(partial(assembled, case))
     for engine in engines:
 
-        def asked(engine: Engine = engine) -> _Asked:
-            return _Asked(engine, case, start())
+        def asked(engine: Engine = engine) -> _Planning:
+            return _Planning(engine, case, start())
 
         for realised, runs in earlier.ways(asked, case, engine):
             audit = ("audit",) if runs else ()
@@ -130,11 +130,11 @@ def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[K
                 yield case.name, engine.name, engine.setting, realised, quantity
 
 
-def _ways(asked: _Asked) -> tuple[Plan | Refusal, ...]:
+def _ways(asked: _Planning) -> tuple[Plan | Refusal, ...]:
     return ways_of(asked.engine, asked.case, asked.start)
 
 
-def _apart(asked: _Asked) -> tuple[Plan | Refusal, ...] | Died:
+def _apart(asked: _Planning) -> tuple[Plan | Refusal, ...] | Died:
     """In a process of their own: what somebody else's engine does is not this session's end."""
     with local(1) as executor:
         ((_, found),) = spread(_ways, [asked], executor)

@@ -146,7 +146,7 @@ def run(
     from ..cases.language.document import Document
     from .batch import suite
     from .batch.cache.store import usable
-    from .batch.request import asked
+    from .batch.request import requested
     from .data.user_settings import made
     from .output import committed, write
     from .show import cures
@@ -158,7 +158,7 @@ def run(
     own = made(Document(Source("options", (), {}), _options(options), []), OWN)
     names = _listed("engines", engines, (str,))
     files = [str(file) for file in _listed("settings", settings, (str, Path))]
-    wanted = asked(found, names, files, own=list(own.values()))
+    wanted = requested(found, names, files, own=list(own.values()))
     store = usable() if cache else None
     with _aloud(progress) as told:
         report = suite.measure(
@@ -204,16 +204,16 @@ def advise(
     """
     import pandas as pd
 
-    from .batch.advice.advice_rows import Asked, rows
+    from .batch.advice.advice_rows import Requirement, rows
     from .batch.advice.advise import advised
     from .batch.cache.store import usable
-    from .batch.request import asked
+    from .batch.request import requested
 
     _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
     if not (words := _listed("cases", word, (str, Path, Case))):
         raise CaseError([Mistake("cases", 0, 0, "", "none is named: all of them take very long")])
-    wanted = asked(load(words), _listed("engines", engines, (str,)), ["shipped"])
-    bar = Asked(tolerance, margin)
+    wanted = requested(load(words), _listed("engines", engines, (str,)), ["shipped"])
+    bar = Requirement(tolerance, margin)
     store = usable() if cache else None
     with (
         _aloud(progress) as told,

@@ -112,7 +112,7 @@ def turn(word: str) -> str | None:
 THREAD = r"^[A-Za-z0-9-]+/[A-Za-z0-9._-]+#[1-9][0-9]*$"
 
 
-def asked(word: str) -> str | None:
+def thread_name(word: str) -> str | None:
     """The mistake in the name of a public thread, in words; None if it is sound."""
     if re.fullmatch(THREAD, word):
         return None

@@ -25,7 +25,7 @@ from .model.force import BY_ITSELF
 from .model.planes import met
 from .model.rods import of_scene, with_rods
 from .model.scene import mjcf
-from .model.script import commented, drawn, told
+from .model.script import commented, control_script, drawn
 from .read.measure import measured
 from .settings import options, settings
 from .settings.groups import groups
@@ -171,7 +171,9 @@ class MuJoCo:
         scene, start = with_rods(scene, start)
         model, *_ = placed(scene, start, step, plan, settles=self._settles)
         begun = model.key_qpos[0].tolist(), model.key_qvel[0].tolist()
-        head = commented(heading(self, title, step, plan, options)) + told(model, controls(scene))
+        head = commented(heading(self, title, step, plan, options)) + control_script(
+            model, controls(scene)
+        )
         return head, mjcf(scene, start, choices, begun)
 
     def run(

@@ -47,7 +47,7 @@ class Counted:
     lost: bool = False
     missed: tuple[str, float] | None = None
 
-    def told(self, motion: Trajectory) -> Trajectory:
+    def with_turns(self, motion: Trajectory) -> Trajectory:
         """The motion, with what its turns are near at its own times."""
         near = {name: self._at(motion.times, angles) for name, angles in self.angles.items()}
         return replace(motion, near=near, fastest=self.fastest)
@@ -189,7 +189,7 @@ class Answer:
         y = self.followed.y if y is None else y
         phases = self.followed.phase.tolist()
         rows = zip(times.tolist(), phases, y, strict=True)
-        return self.turns.told(self._bodies(rows, forces=True))
+        return self.turns.with_turns(self._bodies(rows, forces=True))
 
     @cached_property
     def turns(self) -> Counted:
@@ -210,7 +210,7 @@ class Answer:
     def along(self, rows: Sequence[Kept], *, forces: bool = True) -> Trajectory:
         """The motion at any rows of it."""
         phase = np.array([row[1] for row in rows], dtype=np.int64)
-        return self.turns.told(replace(self._bodies(rows, forces=forces), phase=phase))
+        return self.turns.with_turns(replace(self._bodies(rows, forces=forces), phase=phase))
 
     def _bodies(self, rows: Iterable[Kept], *, forces: bool) -> Trajectory:
         times: list[float] = []

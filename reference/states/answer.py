@@ -49,7 +49,7 @@ def answered(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     built = _trajectory(case, generated, tell, rows(case, generated))
     found, others, checks = built, {}, []
     if written is not None:
-        own = _trajectory(case, written, written.told, rows(case, written))
+        own = _trajectory(case, written, written.quantities, rows(case, written))
         others = {"generated": built}
         # what a system does not tell is the generated mechanism's
         found = replace(own, reactions={**built.reactions, **own.reactions})

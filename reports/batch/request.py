@@ -13,7 +13,7 @@ from .selection import choose_book, choose_engines, sound
 
 
 @dataclass(frozen=True)
-class Asked:
+class Request:
     """Sound cases and the engines for them.
 
     book: whether the book's own approximations stand beside the engines. mistakes: of the files
@@ -27,7 +27,7 @@ class Asked:
     warnings: Sequence[str]
 
 
-def asked(
+def requested(
     found: Sequence[Case],
     names: Sequence[str],
     settings: Sequence[str],
@@ -36,7 +36,7 @@ def asked(
     mistakes: Sequence[Mistake] = (),
     named: bool = True,
     long: bool = False,
-) -> Asked:
+) -> Request:
     """The cases that were found, in engines × settings by name (all for none).
 
     own: further engines, with a user's own options. mistakes: of files that were not found sound.
@@ -53,7 +53,7 @@ def asked(
     silent = _silent(cases, engines, book=book)
     told = [f"warning: {warning.message}" for warning in broken]
     told += [silent] if silent and named else []
-    return Asked(cases, engines, book, mistakes, told)
+    return Request(cases, engines, book, mistakes, told)
 
 
 def _silent(cases: Sequence[Case], engines: Sequence[Engine], *, book: bool) -> str:

@@ -88,7 +88,7 @@ class Unit:
             return {}
         pair, timed = self.pair, self.pair.timing(reference)
         trial = Trial(pair.sampled, reference, pair.engine, self.way, timed=timed)
-        return rungs(trial) if trial.case.states is None else {states.AT: states.asked(trial)}
+        return rungs(trial) if trial.case.states is None else {states.AT: states.rung(trial)}
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ def advise(
       textmech advise four_bar --engine mujoco --tolerance 1e-3
       textmech advise --all                             the committed reports/advice.csv
     """
-    from ..batch.advice.advice_rows import Asked, rows
+    from ..batch.advice.advice_rows import Requirement, rows
     from ..batch.advice.advise import advised
     from ..batch.cache import store
     from ..batch.selection import choose_cases, choose_engines
@@ -119,7 +119,7 @@ def advise(
     front, table, draws = not (every or wants_json), list[Advice](), list[dict[str, int]]()
     with progress.progress() as shown, finished(used is not None):
         for each in [None, PART] if every and tolerance is None else [tolerance]:
-            asked = Asked(each, margin, front=front, robust=robust)
+            asked = Requirement(each, margin, front=front, robust=robust)
             with advised(chosen, engines, asked, jobs=jobs, progress=shown, store=used) as found:
                 for one in found:
                     table += (mine := rows(one))

@@ -33,7 +33,7 @@ def looked_at(
     """
     from ..batch import suite
     from ..batch.cache import store
-    from ..batch.request import asked
+    from ..batch.request import requested
     from ..batch.selection import sound_cases
     from ..output import committed
     from ..show.cures import carried
@@ -43,7 +43,7 @@ def looked_at(
 
     known = committed.committed_causes() if causes and cached else None
     found, mistakes = sound_cases(words, long=long)
-    wanted = asked(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
+    wanted = requested(found, names, settings, mistakes=mistakes, named=bool(words), long=long)
     if wanted.mistakes:
         tell(left_out(wanted.mistakes))
     for warning in wanted.warnings:

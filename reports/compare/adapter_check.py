@@ -276,7 +276,7 @@ def _states(attempt: Attempt) -> Mark:
     if isinstance(way, Refusal):
         return attempt.mark("refused", way.because)
     trial = Trial(case, reference, engine, way)
-    found = climbed(states.asked(trial))
+    found = climbed(states.rung(trial))
     outcome = answered(trial, found)
     off = [r for r in outcome.rows if r.verdict not in (REFUSED, DEVIATES)]
     wrong = [row for row in off if row.ratio is None or not row.ratio <= 1]

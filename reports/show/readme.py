@@ -215,7 +215,7 @@ class Question:
     settings: Mapping[str, Mapping[str, Any] | str]
 
 
-def asked() -> Mapping[str, Question]:
+def listed_questions() -> Mapping[str, Question]:
     """By the name of the case that answers, in the order in which they are to be read."""
     found = YAML(typ="safe").load(LISTED.read_text(encoding="utf-8"))
     return {name: Question(q["asks"], q["answer"], q["with"]) for name, q in found.items()}
@@ -224,7 +224,7 @@ def asked() -> Mapping[str, Question]:
 def questions() -> list[list[str]]:
     """Lines of cells, the head first."""
     lines = [["question", "case", "answer", "setting"]]
-    for name, question in asked().items():
+    for name, question in listed_questions().items():
         settings = (_setting(e, s) for e, s in question.settings.items())
         case = f"[`{name}`]({name}.yaml)"
         lines.append([question.asks, case, question.answer, "<br>".join(settings)])

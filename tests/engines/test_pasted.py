@@ -21,12 +21,12 @@ from given.planning import begun
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
-from textmech.reports.batch.advice.advice_rows import Advised, Asked
+from textmech.reports.batch.advice.advice_rows import Advised, Requirement
 from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.show.advice import advice_lines
-from textmech.reports.show.readme import asked as listed
+from textmech.reports.show.readme import listed_questions as listed
 
 pytestmark = pytest.mark.slow
 
@@ -35,7 +35,7 @@ G = 9.81  # m/s²
 
 def handed_over(name: str, engine: str) -> list[str]:
     """The texts below `to paste`, one for each recipe."""
-    asked, chosen = Asked(None, 2.0), choose_engines([engine], ["shipped"])
+    asked, chosen = Requirement(None, 2.0), choose_engines([engine], ["shipped"])
     cases = [scenes.EVERY[name]]
     with advised(cases, chosen, asked, progress=lambda *_: None, jobs=1, store=usable()) as (one,):
         return list(below(one))

@@ -27,7 +27,7 @@ from textmech.cases.scene.shape import bar
 from textmech.engines.engine import Engine, Start
 from textmech.engines.mujoco.callbacks.signal import installed
 from textmech.engines.mujoco.model.force import BY_ITSELF
-from textmech.engines.mujoco.model.script import told
+from textmech.engines.mujoco.model.script import control_script
 from textmech.reports.compare.trial.start import assembled
 
 STEP = 1e-3  # s: whole steps in the 1 s that a script of pymunk's runs
@@ -158,7 +158,7 @@ def pasted(law: Signal, times: list[float]) -> list[float]:
     """The control that the printed callback sets at these times."""
     model = mujoco.MjModel.from_xml_string(MOTOR)
     data, space = mujoco.MjData(model), {}
-    text = told(model, [law]).split("<!--")[-1].split("-->")[0]
+    text = control_script(model, [law]).split("<!--")[-1].split("-->")[0]
     exec(text.replace("mujoco.set_mjcb_control(control)", ""), space)
     found = []
     for data.time in times:
@@ -220,7 +220,7 @@ def test_a_pasted_callback_leaves_other_models_alone() -> None:
     """It is pasted once the model is loaded: while there is one MuJoCo loads none, as it says."""
     model = mujoco.MjModel.from_xml_string(MOTOR)
     other, data = mujoco.MjModel.from_xml_string("<mujoco/>"), mujoco.MjData(model)
-    said, code = told(model, [LAWS["sine"]]).split("<!--")[-2:]
+    said, code = control_script(model, [LAWS["sine"]]).split("<!--")[-2:]
     assert "while one is set MuJoCo loads no model" in said
     try:
         exec(code.split("-->")[0], {})

@@ -79,6 +79,6 @@ def test_an_engine_that_hangs_is_waited_for_as_long_as_is_said(
     moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(limit.VARIABLE, "1.0")
-    found = collecting._apart(collecting._Asked(Faulty(verb="plans", act="hangs"), moving, {}))
+    found = collecting._apart(collecting._Planning(Faulty(verb="plans", act="hangs"), moving, {}))
     assert isinstance(found, Died)
     assert found.because == "it took longer than 1 s, and was ended"

@@ -3,7 +3,7 @@
 import pytest
 
 from textmech.reports.batch import suite
-from textmech.reports.batch.advice.advice_rows import Asked
+from textmech.reports.batch.advice.advice_rows import Requirement
 from textmech.reports.batch.advice.advice_rows import rows as rows_of
 from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
@@ -62,7 +62,7 @@ def cure(cause: Cause) -> tuple[str, ...]:
 @pytest.mark.slow
 def test_advice_is_current() -> None:
     cases = choose_cases(["bar_pendulum", "four_bar", "sliding_block.below"])
-    asked, engines = Asked(None, 2.0), choose_engines([], ["shipped"])
+    asked, engines = Requirement(None, 2.0), choose_engines([], ["shipped"])
     with advised(cases, engines, asked, progress=lambda *_: None, store=usable()) as found:
         rows = {(one.case, one.engine, one.want): one for each in found for one in rows_of(each)}
     read = write.read(write.HERE / write.ADVICE, Advice)

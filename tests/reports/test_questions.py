@@ -15,7 +15,7 @@ from textmech.reports import run
 from textmech.reports.data.row import AGREES
 from textmech.reports.show import readme as asking
 from textmech.reports.show.readme import WORDS, questions
-from textmech.reports.show.readme import asked as listed
+from textmech.reports.show.readme import listed_questions as listed
 
 Setting = Mapping[str, Any] | str
 EACH = [(n, e, s) for n, q in listed().items() for e, s in q.settings.items()]

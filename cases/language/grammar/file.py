@@ -10,7 +10,7 @@ from ...fields.event import Rule
 from ...fields.field import NUMBER, Bound, In, Literal, Plain
 from ...fields.number import Amount, Names, number, shown
 from ...fields.part import Name, Part, plain_or_list, plain_or_map
-from ...fields.text import THREAD, Place, Text, Word, asked, equation, label, no_formula
+from ...fields.text import THREAD, Place, Text, Word, equation, label, no_formula, thread_name
 from ...fields.words import wrong
 from ...mistake import NO_VALUE, nearest
 from ...scene.states import Span, States
@@ -145,7 +145,7 @@ class Source(Part):
     exercise: BookPlace | None = None
     figure: Places | None = None  # one, or a list of several
     section: BookPlace | None = None
-    thread: Annotated[str, Text(asked, THREAD)] | None = Field(
+    thread: Annotated[str, Text(thread_name, THREAD)] | None = Field(
         default=None, description="the public question that it answers: owner/repository#number"
     )
 

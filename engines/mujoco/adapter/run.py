@@ -39,7 +39,7 @@ def simulate(
     felt_by = {*scene.contacts, *scene.pairs, *(limit.name for limit in scene.limits())}
     touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)
     corners = Corners(controls(scene), float(model.opt.timestep))
-    steps.take = corners.held(steps.take)
+    steps.take = corners.apart(steps.take)
     with listening() as warnings, rated(scene, model), signals(scene, laws, corners):
         steps.begin()
         if every and steps.alone and not corners.any:

@@ -34,7 +34,7 @@ class Corners:
         """Whether there are any."""
         return any(law.corners for law in self.laws)
 
-    def held(self, take: Take) -> Take:
+    def apart(self, take: Take) -> Take:
         """A function that takes n steps, so that one with a corner is taken alone."""
         alone = sorted(set(self._touched()))
         done = 0

@@ -46,7 +46,7 @@ def commented(head: Iterable[str]) -> str:
     return "".join(f"<!-- {re.sub('-(?=-)', '- ', line)} -->\n" for line in head)
 
 
-def told(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
+def control_script(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
     """Python in a comment that sets the controls which do not follow by themselves; or nothing."""
     following = [(i, law) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
     if not following:

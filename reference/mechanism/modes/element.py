@@ -133,7 +133,7 @@ class Element:
         ahead = self.tangent.places(t, q)[0] - self.other.places(t, q)[0]
         return float(max(0.0, AHEAD * size - ahead))
 
-    def held(self, state: State) -> list[Constraint]:
+    def constraints(self, state: State) -> list[Constraint]:
         """The constraints of the state."""
         return []
 
@@ -181,7 +181,7 @@ class Touching(Element):
     def yields(self) -> bool:
         return self.static > self.kinetic
 
-    def held(self, state: State) -> list[Constraint]:
+    def constraints(self, state: State) -> list[Constraint]:
         """Nothing, the floor, or the floor and no slip."""
         assert self.normal is not None
         return {"open": [], "sticks": [self.normal, self.tangent]}.get(state, [self.normal])
@@ -212,7 +212,7 @@ class Sliding(Element):
         law = dry(self.friction)
         return law.Fs_minus > law.F_minus or law.Fs_plus > law.F_plus
 
-    def held(self, state: State) -> list[Constraint]:
+    def constraints(self, state: State) -> list[Constraint]:
         """Nothing, or no slip."""
         return [self.tangent] if state == "sticks" else []
 

@@ -144,7 +144,10 @@ class Loose(Multibody):
         """The forces that the laws allow at this state, with all that is left open of them."""
         multipliers, ways = self.solve(t, q, v)[1], self.idle(t, q, v)
         return leeway(
-            lambda each: self.told(t, q, v, each.tolist()), multipliers, ways, self.margins
+            lambda each: self.reactions_from(t, q, v, each.tolist()),
+            multipliers,
+            ways,
+            self.margins,
         )
 
     def _scaled(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:

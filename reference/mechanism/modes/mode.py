@@ -137,10 +137,12 @@ class Multibody(Mode):
     @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
-        return self.told(t, q, v, self.solve(t, q, v)[1].tolist())
+        return self.reactions_from(t, q, v, self.solve(t, q, v)[1].tolist())
 
     @equation
-    def told(self, t: float, q: Array, v: Array, multipliers: Sequence[float]) -> dict[str, float]:
+    def reactions_from(
+        self, t: float, q: Array, v: Array, multipliers: Sequence[float]
+    ) -> dict[str, float]:
         """(2.60) The same of given multipliers (r,)."""
         numbers, of_floor = q.tolist(), ("normal", "tangent")
         found = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}

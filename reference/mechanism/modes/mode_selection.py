@@ -137,7 +137,7 @@ def settled(
 
 def _held(modes: Modes, after: After, t: float) -> bool:
     mode, q, v = after
-    return modes.held(mode, t, q, v)
+    return modes.locked(mode, t, q, v)
 
 
 def _agrees(

@@ -71,7 +71,7 @@ class Modes(Mapping[str, Multibody]):
         """Whether its rows hold more than there is to hold."""
         return mode in self._ranks
 
-    def held(self, name: str, t: float, q: Array, v: Array) -> bool:
+    def locked(self, name: str, t: float, q: Array, v: Array) -> bool:
         """Whether nothing can move in a mode, whose rows do not contradict each other."""
         rank = self._ranks.get(name) or independent(self[name], t, q, v)
         return rank == len(self.M) and not self.contradicts(name, t, q, v)
@@ -97,7 +97,7 @@ class Modes(Mapping[str, Multibody]):
     def _unshared(self, states: tuple[State, ...], t: float, q: Array, v: Array) -> tuple[int, int]:
         """How many rows a mode has, with a row for each point that sticks, and their rank."""
         if states not in self._whole:
-            held = [part for e, s in self._pairs(states) for part in e.held(s)]
+            held = [part for e, s in self._pairs(states) for part in e.constraints(s)]
             self._whole[states] = Multibody(self.scene, self.start, held=held, base=self.base)
         whole = self._whole[states]
         return len(whole.f_a(t, q)), independent(whole, t, q, v)
@@ -126,7 +126,10 @@ class Modes(Mapping[str, Multibody]):
         shared = [] if rank is not None else list(shares(self.elements, states))
         again = {name for share in shared for name in share.contacts[1:]}
         held = [
-            part for e, s in pairs for part in e.held(s) if part is e.normal or e.name not in again
+            part
+            for e, s in pairs
+            for part in e.constraints(s)
+            if part is e.normal or e.name not in again
         ]
         braking = [brake for e, s in pairs for brake in e.braking(s)]
         coulomb = [law for e, s in pairs for law in e.coulomb(s)]

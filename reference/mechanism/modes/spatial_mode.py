@@ -75,14 +75,16 @@ class SpatialMultibody(Multibody):
         _, multipliers, ways = solved(self.where.M, rows, gamma, Q, self._sizes)
         floors = [f"{name}.normal" for name in self.scene.contacts]
         return leeway(
-            lambda each: self.told(t, q, v, each.tolist()),
+            lambda each: self.reactions_from(t, q, v, each.tolist()),
             multipliers,
             ways,
             lambda forces: [forces[name] for name in floors],
         )
 
     @equation
-    def told(self, t: float, q: Array, v: Array, multipliers: Sequence[float]) -> dict[str, float]:
+    def reactions_from(
+        self, t: float, q: Array, v: Array, multipliers: Sequence[float]
+    ) -> dict[str, float]:
         """(2.60) Forces and moments of first parts on second, by quantity, in ground axes."""
         found = {}
         for joint in self.scene.joints.values():

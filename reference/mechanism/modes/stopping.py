@@ -51,7 +51,7 @@ class Stopping(Element):
         """Its friction, at rest: with its steep root rounding of the speed would be a force."""
         return self.oils if state == "sticks" else ()
 
-    def held(self, state: State) -> list[Constraint]:
+    def constraints(self, state: State) -> list[Constraint]:
         """Nothing, or no slip."""
         return [self.tangent] if state == "sticks" else []
 

@@ -117,7 +117,7 @@ class Limited(Element):
         """Alone."""
         return self.name, ""
 
-    def held(self, state: State) -> list[Constraint]:
+    def constraints(self, state: State) -> list[Constraint]:
         """Nothing, or its row."""
         return [self.normal] if state == "acts" and self.normal is not None else []
 

@@ -55,7 +55,9 @@ class DrivenRobot(SerialArm):
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) inward along the arm [N, N m]; the torque of a drive is u_k · M_k."""
         where = places(q)
-        held = self.held(where, outward(where, v.tolist(), self.accelerations(t, q, v).tolist()))
+        held = self.joint_reactions(
+            where, outward(where, v.tolist(), self.accelerations(t, q, v).tolist())
+        )
         for joint, place in zip(self.coordinates, where, strict=True):
             x, y, z = (held[f"{joint}.m{axis}"] for axis in "xyz")
             held[f"{joint}.torque"] = float(dot(place.u, (x, y, z)))

@@ -45,4 +45,4 @@ class FiveAxisRobot(SerialArm):
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) inward along the arm [N, N m]."""
         where, a = places(q), self.accelerations(t, q, v)
-        return self.held(where, outward(where, v.tolist(), a.tolist()))
+        return self.joint_reactions(where, outward(where, v.tolist(), a.tolist()))

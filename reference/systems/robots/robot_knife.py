@@ -87,7 +87,7 @@ class RobotKnife(SerialArm):
         where, (a, lam) = places(q), self.guided(q, v)
         normal, side = lam.tolist()
         tip = plus(times(normal, UP), times(side, heading(where)[1]))
-        held = self.held(where, outward(where, v.tolist(), a.tolist()), tip)
+        held = self.joint_reactions(where, outward(where, v.tolist(), a.tolist()), tip)
         return held | {"blade.normal": normal, "blade.force": side}
 
     @equation

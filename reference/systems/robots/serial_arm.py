@@ -71,7 +71,9 @@ class SerialArm(Mode):
         return found
 
     @equation
-    def held(self, where: list[Place], moving: list[Moving], tip: Triple = NIL) -> dict[str, float]:
+    def joint_reactions(
+        self, where: list[Place], moving: list[Moving], tip: Triple = NIL
+    ) -> dict[str, float]:
         """(2.23), (2.27) F_k and M_k about p_k of every joint, on its second body [N, N m].
 
         All of M_k: what a drive exerts about the hinge's axis is in it.

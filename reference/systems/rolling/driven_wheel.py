@@ -31,7 +31,7 @@ class DrivenWheel(WheelOnPlane):
     @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) as of any wheel; the drives' torques are M_z and M·n [N, N m]."""
-        held = self.held(q, v, self.accelerations(t, q, v))
+        held = self.guide_reactions(q, v, self.accelerations(t, q, v))
         drive = held["upright.my"] * math.cos(q[2]) - held["upright.mx"] * math.sin(q[2])
         return held | {"upright.theta_torque": held["upright.mz"], "upright.phi_torque": drive}
 

@@ -28,7 +28,7 @@ class UprightWheel(WheelOnPlane):
     @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) as `held` has them, without drives [N, N m]."""
-        return self.held(q, v, self.accelerations(t, q, v))
+        return self.guide_reactions(q, v, self.accelerations(t, q, v))
 
     @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:

@@ -58,7 +58,7 @@ class WheelOnPlane(Mode):
         return np.array([x_ddot, y_ddot, theta_ddot, phi_ddot])
 
     @equation
-    def held(self, q: Array, v: Array, a: Array) -> dict[str, float]:
+    def guide_reactions(self, q: Array, v: Array, a: Array) -> dict[str, float]:
         """(2.23), (2.27) F = m (r̈_c − g), M = Ḋ_c + R e_z × F: what floor and guide exert [N, N m].
 
         D_c = J₃₃ θ̇ e_z + J₂₂ φ̇ n, so that Ḋ_c = J₃₃ θ̈ e_z + J₂₂ (φ̈ n − φ̇ θ̇ e). M is the guide's

@@ -24,7 +24,7 @@ class ArmStates(SerialArm, Stated):
 
     coordinates = ("q1.angle", "q2.angle", "q3.angle", "q4.angle", "q5.angle")
 
-    def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
+    def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """ω from Ė, ω̇ and r̈ outward, M_ab, and the torques u_k · M_k inward."""
         where = places(q)
         found: dict[str, Any] = {"mass_matrix": mass_matrix(where)}

@@ -86,7 +86,7 @@ class HungShapes(Stated):
             found[name] = (*r, np.cos(angle / 2), *half, *r_dot, *(rate * body.u))
         return found
 
-    def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
+    def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """Torque of each hinge in addition to the weight's moment; tensors about C, M and T."""
         found: dict[str, Any] = {}
         M = np.zeros((4, 4))

@@ -70,7 +70,7 @@ class MovingBody(Stated):
         c_dot = velocity(v[:3], omega @ E, a @ E)
         return {"body": (*point(q[:3], E, a), *quaternion(*q[3:]), *c_dot, *omega)}
 
-    def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
+    def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """The point P, the body's accelerations, energy and momenta, and what moves it about Ω."""
         E, omega = self._kinematics(q, v)
         omega_dot = spin_rates(q[3:], v[3:], a[3:])

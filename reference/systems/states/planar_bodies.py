@@ -47,7 +47,7 @@ class PlanarBodies(Stated):
         rows = zip(NAMES, np.reshape(q, (3, 3)), np.reshape(v, (3, 3)), strict=True)
         return {name: (*place, *rate) for name, place, rate in rows}
 
-    def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
+    def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """Points, momenta, the energy, and J₃₃, which is D_c of ω = 1."""
         found: dict[str, Any] = {}
         T, p, D = 0.0, np.zeros(3), 0.0

@@ -49,7 +49,7 @@ class SlidingPoints(Stated):
         """(2.9) X_i and E_ij of each free body by its own parameters."""
         return {"ball": (*q[:2], 0.0, *v[:2], 0.0), "sled": (*q[2:], *v[2:])}
 
-    def told(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
+    def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """For each friction: its components in ground axes, and its size; and p of both bodies."""
         ball, sled = complex(v[0], v[1]), complex(v[2], v[3])
         axis = cmath.exp(1j * q[4])

@@ -16,7 +16,7 @@ from .recipe import Kitchen, Recipe, Recipes, best
 
 
 @dataclass(frozen=True)
-class Asked:
+class Requirement:
     """tolerance: of each quantity's own size; None: what the case allows."""
 
     tolerance: float | None
@@ -30,7 +30,7 @@ class Advised:
     """way: the native one as shipped, or why there is none. kitchen: with all that was run."""
 
     pair: Pair
-    asked: Asked
+    asked: Requirement
     way: Plan | Refusal
     kitchen: Kitchen | None
     recipes: Recipes | None

@@ -22,7 +22,7 @@ from ..search.parallel_search import Asking, Known, Search, lost, together
 from ..search.solving import solved
 from ..task_results import Progress, Results
 from ..tasks import Pair
-from .advice_rows import Advised, Asked
+from .advice_rows import Advised, Requirement
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
 from .parameter_draws import tried_in_draws
@@ -34,7 +34,7 @@ TOLD_IN = "engines/README.md#the-protocol"
 NO_STEPS = "a claim about states: no step and no option plays a part"
 
 
-def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advised]:
+def advise(pairs: Sequence[Pair], asked: Requirement, results: Results) -> list[Advised]:
     """For each case in each engine as shipped; of all searches at once.
 
     Raises CaseError with what only solving finds.
@@ -46,7 +46,7 @@ def advise(pairs: Sequence[Pair], asked: Asked, results: Results) -> list[Advise
     return [_drawn(one, results) for one in advised] if asked.robust else advised
 
 
-def _searched(ready: Sequence[Advised], asked: Asked, results: Results) -> list[Advised]:
+def _searched(ready: Sequence[Advised], asked: Requirement, results: Results) -> list[Advised]:
     """Each with its recipes: such as hold wherever a loop is cut, though there without a margin.
 
     What does not is left out, and the rest searched once more.
@@ -117,7 +117,7 @@ def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
     ]
 
 
-def _prepared(pair: Pair, asked: Asked, unsolved: str, broken: str) -> Advised:
+def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Advised:
     case, engine = pair.case, pair.engine
     if broken:
         return Advised(pair, asked, Refusal("native", broken), None, None)
@@ -247,7 +247,7 @@ def _loops(scene: Any) -> bool:
 def advised(
     cases: Sequence[Case],
     engines: Sequence[Engine],
-    asked: Asked,
+    asked: Requirement,
     *,
     progress: Progress,
     jobs: int | None = None,

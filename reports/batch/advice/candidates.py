@@ -85,7 +85,7 @@ class Menu:
         """Steps that are one."""
         return self.steps[len(self.coarse) :]
 
-    def told(self, options: Options) -> Iterator[tuple[Knob, Value]]:
+    def values_in(self, options: Options) -> Iterator[tuple[Knob, Value]]:
         """The knobs of one number with the values that the options are."""
         for knob in self._knobs(bundle=False):
             for value in knob.values:

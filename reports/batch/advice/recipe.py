@@ -133,7 +133,7 @@ def _cheapest(kitchen: Kitchen, fewest: Recipe) -> Asking[Recipe]:
 
 def _mild(kitchen: Kitchen, found: Recipe) -> Asking[Recipe]:
     """With each number as far from extremes as does: knobs have their values in that order."""
-    for knob, value in list(kitchen.menu.told(found.choice.options)):
+    for knob, value in list(kitchen.menu.values_in(found.choice.options)):
         for milder in takewhile(lambda v, value=value: v is not value, knob.values):
             less = Recipe(found.choice.milder(value, milder), found.step)
             confirmed = [less.candidate, less.choice.at(less.step / 2)]

@@ -41,7 +41,7 @@ def file_stat(name: str, found: os.stat_result) -> Stat:
 
 
 @dataclass(frozen=True)
-class Told:
+class Contents:
     """digest: of names and contents. imports: the modules that its code imports, by their first
     names. variables: what may be an environment's variable in it."""
 
@@ -65,7 +65,7 @@ class Place:
         """The `Stat` of each of its files, sorted. Raises OSError."""
         return tuple(sorted(self._stats(str(self.path.resolve()), "")))
 
-    def told(self, stats: tuple[Stat, ...], memo: Store) -> Told:
+    def contents(self, stats: tuple[Stat, ...], memo: Store) -> Contents:
         """The digest of its contents, with the names in its code. Raises OSError."""
         if not _settled(stats):
             return self._read(stats)
@@ -90,7 +90,7 @@ class Place:
         except FileNotFoundError:  # a link that leads nowhere
             yield f"{name} -> nowhere", 0, 0, 0, 0, 0
 
-    def _read(self, stats: tuple[Stat, ...]) -> Told:
+    def _read(self, stats: tuple[Stat, ...]) -> Contents:
         whole, imports, variables = hashlib.blake2b(digest_size=32), set[str](), set[str]()
         root = str(self.path.resolve())
         for name, *found in stats:
@@ -101,16 +101,16 @@ class Place:
                 file = name or self.path.name
                 imports |= _imports(data) if file.endswith(CODE) else set()
                 variables |= _variables(file, data)
-        return Told(whole.hexdigest(), tuple(sorted(imports)), tuple(sorted(variables)))
+        return Contents(whole.hexdigest(), tuple(sorted(imports)), tuple(sorted(variables)))
 
 
 @lru_cache(1000)
-def _remembered(place: Place, stats: tuple[Stat, ...], memo: Store) -> Told:
+def _remembered(place: Place, stats: tuple[Stat, ...], memo: Store) -> Contents:
     words = "\0".join(map(repr, (_FORMAT, str(place.path), place.code, place.tests, *stats)))
     key = hashlib.sha256(f"digest\0{words}".encode()).hexdigest()
     kept: Mapping[str, str | tuple[str, ...]] | None = memo.get(key, _KEPT)
     if kept is not None and set(kept) == {"digest", "imports", "variables"}:
-        return Told(**kept)  # type: ignore[arg-type]
+        return Contents(**kept)  # type: ignore[arg-type]
     read = place._read(stats)
     if place.stats() == stats:  # nothing was written meanwhile
         memo.put(key, vars(read))

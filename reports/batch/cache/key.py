@@ -214,7 +214,7 @@ def basis(memo: Store) -> str:
     stats = [place.stats() for place in places]
     if any(max(file[2], file[3]) > BEGUN * 1e9 for files in stats for file in files):
         return uuid4().hex
-    return _word(*(p.told(files, memo).digest for p, files in zip(places, stats, strict=True)))
+    return _word(*(p.contents(files, memo).digest for p, files in zip(places, stats, strict=True)))
 
 
 @cache

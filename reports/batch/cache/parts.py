@@ -20,7 +20,7 @@ from types import ModuleType
 
 from .... import engines
 from ....engines.engine import Engine
-from .digest import CODE, COMPILED, Place, Stat, Told
+from .digest import CODE, COMPILED, Contents, Place, Stat
 from .store import Store
 
 OURS, BASIS = "textmech", ("numpy", "scipy")  # whose digests are in every key
@@ -73,7 +73,7 @@ class Parts:
             parts.words.add(f"{name}={os.environ[name]}")
             with suppress(OSError, ValueError):
                 if (file := Path(os.environ[name])).is_file():
-                    parts._told(Place(file))
+                    parts._contents(Place(file))
         return parts
 
     def word(self) -> str:
@@ -90,9 +90,9 @@ class Parts:
         """Whether anything has changed after that time [s]."""
         return any(max(s[2], s[3]) > than * 1e9 for stats in self.found.values() for s in stats)
 
-    def _told(self, place: Place) -> Told:
+    def _contents(self, place: Place) -> Contents:
         self.found[place] = stats = place.stats()
-        told = place.told(stats, self.memo)
+        told = place.contents(stats, self.memo)
         self.words.add(f"{place.path.name} {told.digest}")
         self.variables |= set(told.variables)
         return told
@@ -101,10 +101,10 @@ class Parts:
         """A folder of code or a module, with what it imports; beside: and what lies there."""
         if any(place.path == path for place in self.found):
             return
-        told = self._told(Place(path, code=True))
+        told = self._contents(Place(path, code=True))
         if beside:
             for file in _beside(path):
-                self._told(Place(file))
+                self._contents(Place(file))
         for name in told.imports:
             self._module(name)
 
@@ -116,7 +116,7 @@ class Parts:
         with suppress(PackageNotFoundError, ValueError):
             self._asked.append(distribution(name))
             for path in located(name):
-                self._told(Place(path, code=True, tests=False))
+                self._contents(Place(path, code=True, tests=False))
             return
         for path in located(name):
             self._place(path)
@@ -138,10 +138,10 @@ class Parts:
         self.words.add(f"{known} {version}")
         for top in sorted(_tops(found)):
             if top.endswith(".libs"):
-                self._told(Place(Path(str(found.locate_file(top)))))
+                self._contents(Place(Path(str(found.locate_file(top)))))
             elif _module_of(top) in held:
                 for path in located(_module_of(top)):
-                    self._told(Place(path, code=True, tests=False))
+                    self._contents(Place(path, code=True, tests=False))
         for needed in _FIELD["Requires-Dist"].findall(told):
             if "extra ==" not in needed and (match := _REQUIRED.match(needed)):
                 with suppress(PackageNotFoundError):

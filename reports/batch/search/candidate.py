@@ -16,7 +16,7 @@ TRIED = "tried"  # the setting's name
 class Candidate:
     """Options as a user would write them, and the step [s]; equal where these are."""
 
-    told: str  # the options as JSON
+    text: str  # the options as JSON
     step: float
 
     @staticmethod
@@ -26,7 +26,7 @@ class Candidate:
     @property
     def options(self) -> Mapping[str, Any]:
         """Without the step."""
-        return json.loads(self.told)
+        return json.loads(self.text)
 
     def engine(self, name: str) -> Engine:
         """The engine with them. Raises ValueError where it does not take them."""
@@ -34,4 +34,4 @@ class Candidate:
 
     def at(self, step: float) -> "Candidate":
         """The candidate with the same options at another step [s]."""
-        return Candidate(self.told, step)
+        return Candidate(self.text, step)

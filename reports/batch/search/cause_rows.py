@@ -21,7 +21,7 @@ NOTHING = "nothing can be changed: it is asked of states, without a run"
 
 
 @dataclass(frozen=True)
-class Asked:
+class Unexplained:
     """The rows of a pair that have to be searched."""
 
     pair: Pair
@@ -40,13 +40,13 @@ class Asked:
         return engine.cost(self.pair.case.scene, first(self.pair.reference()))
 
 
-def searched(asked: Asked, row: Comparison, cured: Cured) -> list[Cause]:
+def searched(asked: Unexplained, row: Comparison, cured: Cured) -> list[Cause]:
     """A row for each cure, the cheapest first."""
     found = sorted(cured.cures, key=lambda cure: asked.cost(cure.candidate))
     return [_cause(asked, row, cure, cured.elsewhere) for cure in found] or [without(row, NONE)]
 
 
-def _cause(asked: Asked, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
+def _cause(asked: Unexplained, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
     words = " + ".join(lever.words for lever in cure.turned)
     if len(cure.turned) > LARGEST:
         words = f"all of {words}"  # fewer may do: not all sets of them were tried

@@ -18,7 +18,7 @@ from ...data.row import UNSEARCHED, Cause, Comparison, Rungs, StepError, as_writ
 from ..task_results import Results
 from ..tasks import Pair
 from .candidate import Candidate
-from .cause_rows import NONE, NOTHING, Asked, by_ladder, by_ours, climbed, searched, without
+from .cause_rows import NONE, NOTHING, Unexplained, by_ladder, by_ours, climbed, searched, without
 from .change import STEP, Field, halved, levers, remainder, wholes
 from .cures import Cured, cures
 from .parallel_search import Search, lost, together
@@ -141,7 +141,7 @@ def _asked(cause: Cause) -> tuple[str, float | None, float | None]:
 
 def _searched(
     rows: Sequence[Comparison], steps: Sequence[StepError], pairs: Iterable[Pair], results: Results
-) -> Iterator[tuple[Asked, Mapping[str, Cured]]]:
+) -> Iterator[tuple[Unexplained, Mapping[str, Cured]]]:
     of: dict[tuple[str, str, str], list[Comparison]] = {}
     for row in rows:
         of.setdefault(_where(row), []).append(row)
@@ -151,7 +151,7 @@ def _searched(
         for key in [_where_of(pair)]
         if key in of and pair.case.states is None and isinstance(pair.engine, Tunable)
     }
-    asked: dict[str, Asked] = {}
+    asked: dict[str, Unexplained] = {}
     searches: dict[str, Search[dict[str, Cured]]] = {}
     referenced = {" ".join(key): (key, p) for key, p in _referenced(tunable, results).items()}
     broken = lost({name: pair for name, (_, pair) in referenced.items()}, results)
@@ -161,7 +161,7 @@ def _searched(
         levers = between(pair)
         mine = [one for one in steps if (one.case, one.engine, one.setting) == key]
         runs = climbed(levers.base, of[key], mine)
-        asked[name] = Asked(pair, levers, of[key])
+        asked[name] = Unexplained(pair, levers, of[key])
         looking = cures(levers, runs, [row.quantity for row in of[key]])
         searches[name] = Search(pair, runs, looking)
     found = together("causes", searches, results)

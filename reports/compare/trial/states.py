@@ -48,7 +48,7 @@ def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]
     return (Plan("native", held=(), withheld=whys),)
 
 
-def asked(trial: Trial) -> Rung:
+def rung(trial: Trial) -> Rung:
     """The one run: all states at once."""
     most = dict.fromkeys(trial.motion, float("inf"))
     return Rung(trial.case, trial.engine, trial.start, trial.plan, trial.case.duration, most)

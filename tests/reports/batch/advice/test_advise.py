@@ -7,7 +7,7 @@ import pytest
 from given import scenes
 
 from textmech.reports import advise
-from textmech.reports.batch.advice.advice_rows import FEWEST, Asked, rows
+from textmech.reports.batch.advice.advice_rows import FEWEST, Requirement, rows
 from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_engines
@@ -17,7 +17,7 @@ from textmech.reports.show.advice import advice_lines, ratio
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp")
 
 
-def advice(asked: Asked, *names: str, engines: tuple[str, ...] = ()) -> Mapping[str, Advice]:
+def advice(asked: Requirement, *names: str, engines: tuple[str, ...] = ()) -> Mapping[str, Advice]:
     """By case and engine, the cheapest."""
     cases = [scenes.EVERY[name] for name in names]
     chosen = choose_engines(engines, ["shipped"])
@@ -28,7 +28,7 @@ def advice(asked: Asked, *names: str, engines: tuple[str, ...] = ()) -> Mapping[
 
 @pytest.fixture(scope="module")
 def found() -> Mapping[str, Advice]:
-    return advice(Asked(None, 2.0), *CASES)
+    return advice(Requirement(None, 2.0), *CASES)
 
 
 @pytest.mark.slow
@@ -52,7 +52,7 @@ def test_recipes_that_are_known(
 @pytest.mark.slow
 def test_a_step_finer_is_found_where_a_loop_cut_elsewhere_needs_it() -> None:
     """With 2 ms all that keeps a thousandth does so only with the loop cut where it is."""
-    one = advice(Asked(1e-3, 2.0), "opening_loop", engines=("mujoco",))["opening_loop mujoco"]
+    one = advice(Requirement(1e-3, 2.0), "opening_loop", engines=("mujoco",))["opening_loop mujoco"]
     assert one.settings == (
         "mujoco: {connect: {solimp: [0.9999, 0.9999, 0.001], solref: [8h, 1.0]}, "
         "integrator: RK4, step: 0.001}"
@@ -86,7 +86,7 @@ def test_what_is_refused_says_why(found: Mapping[str, Advice]) -> None:
 @pytest.mark.slow
 def test_where_nothing_does_it_what_remains_is_said() -> None:
     """Both engines know one coefficient of friction."""
-    found = advice(Asked(None, 2.0), "growing_force", engines=("mujoco",))
+    found = advice(Requirement(None, 2.0), "growing_force", engines=("mujoco",))
     one = found["growing_force mujoco"]
     assert (one.recipe, one.step) == ("none", None)
     assert "stays ×" in one.remains
@@ -109,7 +109,9 @@ def test_what_would_need_our_adapter_is_named_where_there_is_no_recipe(tmp_path:
     """`run --causes` says that tips that reflect cure it, and nobody can paste those."""
     case = scenes.typed(tmp_path, SLIDES_OFF, tail=scenes.tail(0.6, 25))
     engines = choose_engines(["pymunk"], ["shipped"])
-    with advised([case], engines, Asked(None, 2.0), progress=lambda *_: None, jobs=2) as (one,):
+    with advised([case], engines, Requirement(None, 2.0), progress=lambda *_: None, jobs=2) as (
+        one,
+    ):
         lines = list(advice_lines(one))
     where = next(i for i, line in enumerate(lines) if line.startswith("  no recipe: "))
     assert lines[where + 1].strip().startswith("not tried, for it takes our adapter")
@@ -120,7 +122,7 @@ def test_what_would_need_our_adapter_is_named_where_there_is_no_recipe(tmp_path:
 def test_another_tolerance_asks_for_another_step() -> None:
     """A thousandth, or a tenth, of each quantity's size, whatever the case allows."""
     strict, loose = (
-        advice(Asked(t, 2.0), "bar_pendulum", engines=("pymunk",))["bar_pendulum pymunk"]
+        advice(Requirement(t, 2.0), "bar_pendulum", engines=("pymunk",))["bar_pendulum pymunk"]
         for t in (1e-3, 1e-1)
     )
     assert loose.step is not None
@@ -131,7 +133,7 @@ def test_another_tolerance_asks_for_another_step() -> None:
 @pytest.mark.slow
 def test_a_finer_step_costs_more_time() -> None:
     """Ten times as many steps: a ratio near ten, on any machine."""
-    asked = Asked(None, 2.0)
+    asked = Requirement(None, 2.0)
     engines = choose_engines(["pymunk"], ["shipped"])
     cases = [scenes.EVERY["bar_pendulum"]]
     with advised(cases, engines, asked, progress=lambda *_: None, jobs=2) as (one,):

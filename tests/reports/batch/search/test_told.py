@@ -10,7 +10,7 @@ from given.otherwise import otherwise
 
 from textmech import engines
 from textmech.reports.batch.advice import advice_rows as advised
-from textmech.reports.batch.advice.advice_rows import Advised, Asked
+from textmech.reports.batch.advice.advice_rows import Advised, Requirement
 from textmech.reports.batch.advice.candidates import Choice, Menu
 from textmech.reports.batch.advice.criterion import Bar
 from textmech.reports.batch.advice.recipe import Kitchen, Recipe, Recipes
@@ -44,7 +44,7 @@ def causes(pair: Pair, module: Any = told) -> list[tuple[str, float | None]]:
     """Two cures, the dearer one found first, as rows say them."""
     field = Field(SHIPPED, [RK4, STEP], [OWN, OWN / 8], [OWN, OWN / 8])
     found = Cured([Cure((STEP,), EIGHTH, 0.5, ""), Cure((RK4,), FOUR, 0.5, "")])
-    rows = module.searched(module.Asked(pair, field, []), row(ratio=3.0), found)
+    rows = module.searched(module.Unexplained(pair, field, []), row(ratio=3.0), found)
     return [(cause.cure, cause.cost) for cause in rows]
 
 
@@ -54,7 +54,7 @@ def test_options_are_all_that_a_file_of_settings_needs(pair: Pair) -> None:
     base = Candidate.of(stiff, OWN)
     field = Field(base, [RK4, STEP], [OWN, OWN / 8], [OWN, OWN / 8])
     found = Cured([Cure((RK4,), field.candidate((RK4,)), 0.5, "")])
-    (cause,) = told.searched(told.Asked(pair, field, []), row(ratio=3.0), found)
+    (cause,) = told.searched(told.Unexplained(pair, field, []), row(ratio=3.0), found)
     assert cause.options == "{integrator: RK4, solref: [0.005, 1.0]}"
 
 
@@ -88,7 +88,7 @@ def found(pair: Pair) -> Advised:
     known = {SHIPPED: {"x": (9.0, 9.0)}, half.candidate: {"x": (0.25, 0.25)}}
     kitchen = Kitchen(Menu([], [OWN, OWN / 2], OWN, {}), Bar(known, 2.0), cost)  # type: ignore[arg-type]
     way = planned(pair.engine, pair.case.scene, first(pair.reference()))[0]
-    return Advised(pair, Asked(None, 2.0), way, kitchen, Recipes(half, half))
+    return Advised(pair, Requirement(None, 2.0), way, kitchen, Recipes(half, half))
 
 
 def costs(found: Advised, module: Any = advised) -> tuple[float | None, float | None]:
