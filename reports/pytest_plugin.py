@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from fnmatch import fnmatch
 from functools import partial
 from pathlib import Path
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..cases.mistake import CaseError
     from .batch.suite import Report
     from .collecting import Earlier
-    from .data.row import Comparison
+    from .data.row import Certificate, Comparison
 
 SUFFIXES = (".yaml", ".yml")
 _REPORT = pytest.StashKey["Report"]()
@@ -257,18 +257,33 @@ class RowError(Exception):
     """A row that FAILS, as it is to be read."""
 
 
+def _row_text(row: "Comparison") -> str:
+    """Returns all that is known of a row, one column a line."""
+    kept = {k: v for k, v in asdict(row).items() if v not in (None, "")}
+    return "\n".join(
+        f"  {name:9} {value:.3g}" if isinstance(value, float) else f"  {name:9} {value}"
+        for name, value in kept.items()
+    )
+
+
+def _certificate_text(row: "Certificate") -> str:
+    """Says which check of a case's reference does not hold, and by how much."""
+    return (
+        f"{row.case}: the reference ({row.system}) is not certified: {row.check}: "
+        f"{row.difference:.2e} is above {row.bound:.2e}"
+    )
+
+
 class CertificateItem(CaseItem):
     """The reference's own certificate: every check of it."""
 
     def runtest(self) -> None:
-        from .show.text import certificate_text
-
         rows = [row for row in self.report().certificates if row.case == self.case.name]
         if not rows:
             raise RowError("no certificate was made")
         broken = [row for row in rows if row.verdict == "FAILS"]
         if broken:
-            raise RowError("\n".join(certificate_text(row) for row in broken))
+            raise RowError("\n".join(_certificate_text(row) for row in broken))
 
     def reportinfo(self) -> tuple[Path, int, str]:
         return self.path, self.place("title") - 1, f"case {self.name}"
@@ -288,23 +303,22 @@ class ComparisonItem(CaseItem):
         from .data.row import AGREES, DEVIATES, FAILS, REFUSED
         from .output.committed import worse
         from .show.terminal import line
-        from .show.text import row_text
 
         row = self.row()
         self.user_properties += [(name, getattr(row, name)) for name in TOLD]
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
-            raise RowError(f"{place}: {row.quantity}\n{row_text(row)}")
+            raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
         try:
             lost = worse(self.case, row)
         except ValueError as cut:
             raise RowError(str(cut)) from None
         if lost:
-            raise RowError(f"{lost}\n{row_text(row)}")
+            raise RowError(f"{lost}\n{_row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
             if self.promised and row.verdict != REFUSED:
                 place = f"{self.path}:{self.place('allow', row.quantity)}"
-                raise RowError(f"{place}: {row.quantity}, by your own settings\n{row_text(row)}")
+                raise RowError(f"{place}: {row.quantity}, by your own settings\n{_row_text(row)}")
             pytest.xfail(" ".join(line(row).split()))
 
     @property
