@@ -70,8 +70,8 @@ def certify(
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
     finer = finely(times, system.corners, whole=stiff)
     name, closer = _second(system, finer, stiff=stiff)
-    own = np.searchsorted(finer, times)
-    second = replace(closer, y=closer.y[own], phase=closer.phase[own])
+    asked = np.searchsorted(finer, times)
+    second = replace(closer, y=closer.y[asked], phase=closer.phase[asked])
     others = {name: replace(written, followed=second).trajectory(times)}
     apart = compared(motion, others[name])
     checks, found = [], {f"{name}: events": second}
@@ -84,11 +84,11 @@ def certify(
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
         checks.append(Check("closed form", compared(motion, others["closed form"]), own))
-    late = apart * float(times[-1] - times[0])
+    drifted = apart * float(times[-1] - times[0])  # s: as large a part of the time
     ends = any(map(_rests, followed.changes))
     alone = max(system.blurred if ends else 0.0, untimed(system, followed))
-    apart = max(_looser(late), 2 * alone)  # either way, two answers
-    checks += _events(system, followed, found, apart, float(times[-1]))
+    later = max(_looser(drifted), 2 * alone)  # either way, two answers
+    checks += _events(system, followed, found, later, float(times[-1]))
     doing("the laws at every sample", float(times[0]), float(times[-1]))
     if written.turns.angles:
         checks.append(Check("turns by their rates", written.turns.unrolled(), UNROLLED))
@@ -106,7 +106,7 @@ def certify(
         others["another start"] = replace(
             built, system=generated.beside, followed=other
         ).trajectory(times)
-    late = worst([late, alone, *(_apart(followed, other) for other in found.values())])
+    late = worst([drifted, alone, *(_apart(followed, other) for other in found.values())])
     worked = partial(work_errors, case, motion, written)
     return (*checks, *errors(case, motion, others, late, worked))
 
