@@ -70,24 +70,31 @@ def test_elements_for_mujoco(name: str, options: Options) -> None:
 
 
 @pytest.mark.slow
-def test_what_one_default_cannot_say_of_two_groups_is_a_comment(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "options",
+    [RECIPE, {"rod": {"solref": ["4h", 1.0]}}, {"connect": {"solref": ["4h", 1.0]}}],
+    ids=["both", "rod", "connect"],
+)
+def test_what_one_default_cannot_say_of_two_groups_is_a_comment(
+    options: Options, tmp_path: Path
+) -> None:
     """Loops closed by a pin and by a rod are both equalities, with numbers of their own."""
     case = scenes.typed(tmp_path, rods.BOTH, tail=scenes.tail(0.2, 5))
     scene, start = case.scene, first(solve(case).trajectory)
-    options = MuJoCo("shipped").recipe(scene, start)
+    options = options or MuJoCo("shipped").recipe(scene, start)
     plan = planned(MuJoCo("own", {**options, "step": STEP}), scene, start)
     snippet = MuJoCo("shipped").snippet(scene, start, options, STEP)
-    said, _, elements = snippet.partition("-->")
-    numbers = re.fullmatch("<!-- each equality of a rod has (.*) instead ", said)
-    assert numbers
+    ((group, numbers),) = re.findall(
+        "<!-- each equality of a (connect|rod) (?:has|keeps) (.*?)(?: instead)? -->", snippet
+    )
     bare = mjcf(scene, start, [timestep(1.0)])
     head, tag, rest = bare.partition("<worldbody>")
-    inside = rest.partition("<equality>")
-    held_too = inside[2].replace("<tendon ", f"<tendon {numbers[1].replace(',', '')} ")
-    pasted = "".join([head, elements, tag, *inside[:2], held_too])
+    inside, word = rest.partition("<equality>"), {"connect": "<connect ", "rod": "<tendon "}[group]
+    own = inside[2].replace(word, f"{word}{numbers.replace(',', '')} ")
+    pasted = "".join([head, snippet, tag, *inside[:2], own])
     wanted, _ = compiled(scene, start, STEP, plan)
     assert not differing(mujoco.MjModel.from_xml_string(pasted), wanted)
-    assert differing(mujoco.MjModel.from_xml_string(head + elements + tag + rest), wanted)
+    assert differing(mujoco.MjModel.from_xml_string(head + snippet + tag + rest), wanted)
 
 
 def _heavy(choice: Choice) -> bool:
@@ -195,7 +202,7 @@ def test_for_which_friction_a_soft_contact_is_told(told: Options, noted: bool) -
     """A ball of geoms sinks 0.07 mm with 0.5 and 0.37 mm with MuJoCo's own 1."""
     scene, start = begun("sinking_ball")
     text = MuJoCo("shipped").snippet(scene, start, told, STEP)
-    assert ("as its cone is a pyramid: this is for 0.5" in text) == noted
+    assert ("as its cone is a pyramid: it is for 0.5" in text) == noted
 
 
 PYMUNK: list[tuple[str, Options]] = [
@@ -294,6 +301,7 @@ allow: {b.x: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "noted"),
     [("sine: {amplitude: [5, 0], angular_frequency: 8.0}", True), ("constant: [5, 0]", False)],

@@ -1,8 +1,9 @@
 """The groups of soft constraints: how each is called, where its numbers stand, how it is tuned.
 
 A group's choices are called by its word: `connect.solref`, `slide.solreffriction`. A user's options
-have them under the name of an element, of which MuJoCo gives a joint's dry friction and its stops,
-and a tendon's range, attributes with an ending of their own.
+have them under the name of an element: `joint` for dry friction and for stops, whose attributes end
+in `friction` and in `limit`, `tendon` for ropes, which end in `limit`; only `rod`, a tendon that an
+equality holds, is no element of MuJoCo's.
 """
 
 from collections.abc import Callable, Mapping, Sequence

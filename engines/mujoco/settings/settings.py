@@ -28,7 +28,7 @@ RECOMMENDED: Mapping[str, Any] = {
 0.004 to 0.01 s, and of solimp to keep it."""
 GUIDE = "the recommended initial value: MuJoCo 4.0.0's documentation, Modeling, Model tuning"
 TO_THE_END = Choice(
-    "option.tolerance", 0.0, "MuJoCo scales it by the mass, and a driven point's is 1e15"
+    "option.tolerance", 0.0, "MuJoCo scales residuals by the mass, and a driven point's is 1e15 kg"
 )
 
 

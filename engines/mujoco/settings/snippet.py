@@ -1,6 +1,7 @@
 """Options as elements of an MJCF file, ready to paste between `<mujoco>` and `</mujoco>`."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any
 from xml.etree import ElementTree as ET
 
 from ...engine import Choice
@@ -28,7 +29,7 @@ _POINTS = (
     "is for {points} of a body, and a box geom touches a plane at four"
 )
 _NEED = "; and only a pair has a solreffriction, without which the rest makes it hop"
-_PYRAMID = "a contact is the softer the larger its friction, as its cone is a pyramid: this is for "
+_PYRAMID = "a contact is the softer the larger its friction, as its cone is a pyramid: it is for "
 _CONTACTS = ("pair.", "option.impratio")  # what begins so acts on contacts alone
 
 
@@ -68,6 +69,7 @@ def snippet(
                 place.attrib.update(mine)
         if word == "pair" and given:
             ET.SubElement(default, "pair", given)
+    beside += _keep(before | changed, changed, default)
     beside += [_KEPT[element.tag] for element in default if element.tag in _KEPT]
     if (pair := default.find("pair")) is not None:
         need = _NEED if _ALONE in pair.attrib else ""
@@ -84,6 +86,20 @@ def snippet(
     return "".join(
         [commented([*notes, *beside]), _text(option), _text(default) if len(default) else ""]
     )
+
+
+def _keep(
+    numbers: Mapping[str, Any], changed: Mapping[str, Any], default: ET.Element
+) -> Iterator[str]:
+    """What shares an element of <default> with what has changed, and has other numbers itself."""
+    for word, group in GROUPS.items():
+        found = default.find(group.default)
+        if found is None or word == "pair" or attributes(changed, word):
+            continue
+        others = {n: x for n, x in attributes(numbers, word).items() if found.get(n, x) != x}
+        if others:
+            own = ", ".join(f"{name}={value!r}" for name, value in others.items())
+            yield f"each {group.default} of a {word} keeps {own}"
 
 
 def _pairs(frictions: Mapping[str, float]) -> str:
@@ -137,7 +153,7 @@ def option_notes(
     if contacts and plane and options.get("noslip_iterations"):
         notes.append(
             "noslip does nothing for a body that has no freedom along the third axis, and all else "
-            "here counts on it: give such a body a slide along that axis, or it hardly rubs"
+            "here counts on it: give such a body a slide along that axis, or it hardly has friction"
         )
     return notes
 

@@ -47,7 +47,7 @@ def eases(step: float) -> Choice:
         "limit.error_bias",
         math.exp(-rate),
         f"what is too long of a rope, or beyond a stop, falls as exp(−{rate:.3g} t/s): with 0 it "
-        "is taken back in one step, and throws back what was caught; the default takes a tenth of "
+        "is taken back in one step, and throws back what was caught; the default takes a sixth of "
         "a second",
     )
 

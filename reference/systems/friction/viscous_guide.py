@@ -14,8 +14,10 @@ import numpy as np
 from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
-LOOKS = 64  # in a period, for the next zero of v: between two there are no two
-HALVINGS = 60  # of such a piece: to the last digit
+# In a period, for the next zero of v. What is shorter than a look, as a dip of v where d is small,
+# lies beside a whole period T after the last zero, and there v is below zero by u (1 − e^{−kT}).
+LOOKS = 64
+HALVINGS = 60  # of a look: to the last digit
 
 
 class ViscousGuide(Mode):
@@ -118,6 +120,8 @@ class ViscousDrift(ViscousGuide):
     d_plus: float
 
     def __post_init__(self) -> None:
+        if not (self.A != 0.0 and self.w > 0.0):
+            raise ValueError(f"the force swings with A ≠ 0 and w > 0, not {self.A} and {self.w}")
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
         object.__setattr__(self, "_known", [(0.0, 0.0, 1 if self.A > 0 else -1)])
 

@@ -53,7 +53,7 @@ class SimplestWalker(System):
         return "lifts", *self._after(self.theta0, self.w0)
 
     def _after(self, theta: float, theta_dot: float) -> tuple[Array, Array]:
-        """φ = 2θ, φ̇ = (1 − cos 2θ) θ̇: the foot that lets go keeps its velocity, none."""
+        """φ = 2θ, φ̇ = (1 − cos 2θ) θ̇: the foot that lets go does not yet move across its leg."""
         q = np.array([theta, 2 * theta])
         return q, np.array([theta_dot, (1 - math.cos(2 * theta)) * theta_dot])
 
