@@ -102,6 +102,7 @@ def test_another_motion_is_not_compared(name: str, monkeypatch: pytest.MonkeyPat
     assert row.samples is None
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("plain loop of {name} with another stiction")
 @pytest.mark.parametrize("name", TUNED)
 def test_nor_is_another_law(name: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -124,6 +124,7 @@ def test_the_certificate_compares_attitudes() -> None:
     assert agreement.difference(motion, opposite(motion)) < EPS
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("certificate: opposite quaternions taken for other attitudes")
 def test_a_certificate_that_compares_quaternions_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     motion = scenes.solved("heavy_top.loops").trajectory

@@ -202,6 +202,7 @@ def stated(motion: Solution, name: str) -> float:
     return next(c.certified or 0.0 for c in motion.checks if c.name == f"error of {name}")
 
 
+@pytest.mark.slow
 def test_the_samples_do_not_have_to_lie_on_jumps(tmp_path: Path) -> None:
     """F = m v̇: 5 N for 0.42 s from 1 m/s on, between 26 samples in a second."""
     case = scenes.typed(tmp_path, FLAT.replace("ALLOWED", "1.0e-2"))
@@ -211,6 +212,7 @@ def test_the_samples_do_not_have_to_lie_on_jumps(tmp_path: Path) -> None:
     assert abs(work - known) <= stated(motion, "hand.work") < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("corners of laws left out of a work")
 def test_a_work_that_takes_no_heed_of_corners_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -111,6 +111,7 @@ def unknown(engine: Engine, scene: Scene) -> set[str]:
     return {f"{name}.friction" for name in feet}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "engine"), PAIRS, ids=pair)
 def test_the_engine_holds_the_same_physics(name: str, engine: Engine) -> None:
     scene, start = begun(name)

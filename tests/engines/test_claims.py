@@ -117,6 +117,7 @@ def test_an_engine_with_another_mass_is_seen(engine: Engine, name: str) -> None:
         assert np.max(np.abs(trial.read(q, good[q]) - trial.wanted(q))) <= (case.allow[q] or 0.0), q
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "a place 1e-6 rad off in the engine alone",
     "a rate 1e-6 rad/s off in the engine alone",

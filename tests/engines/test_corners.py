@@ -51,6 +51,7 @@ def off(engine: str, law: Signal) -> float:
     return float(np.max(np.abs(found.states["cart"][:, 3] - area[::100_000] / M)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("engine", ENGINES)
 def test_the_momentum_is_that_of_the_force(engine: str, law: str) -> None:

@@ -97,6 +97,7 @@ def _stands(noted: feet.Standing) -> feet.Standing:
     return {name: place for name, place in noted.items() if place is not None}
 
 
+@pytest.mark.slow
 def test_its_impulse_is_that_of_the_reference(monkeypatch: pytest.MonkeyPatch) -> None:
     """MuJoCo's M and J against moments of momentum (2.27), at every strike of six steps."""
     (scene, start), walker = begun(CASE.name), CompassWalker(**CASE.parameters)

@@ -66,12 +66,14 @@ def off(folder: Path, text: str) -> float:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [SLIDES, PINS], ids=["a slide on a slide", "a pin in flight"])
 def test_friction_between_bodies_is_pymunks_own(text: str, tmp_path: Path) -> None:
     """While it slides one way it is the textbook's, and nothing is left but steps: 8e-7 at most."""
     assert off(tmp_path, text) < 3e-6
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("our law of friction where it is not known, beside a law that is")
 def test_a_law_that_is_not_known_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It asks for the rail's point of the ground, and the rail is on a body."""
@@ -100,6 +102,7 @@ step: {mujoco: STEP, pymunk: STEP}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", [MuJoCo("tuned"), Pymunk("tuned")], ids=["mujoco", "pymunk"])
 def test_a_step_that_leaves_hills_law_is_told(engine: MuJoCo | Pymunk, tmp_path: Path) -> None:
     """It would leap onto the other branch of the hyperbola, and the model would be blamed.

@@ -33,6 +33,7 @@ def apart(engine: str, h: float) -> float:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("engine", "order"), [("mujoco", 4), ("pymunk", 2)])
 def test_the_state_is_of_the_engine_s_order(engine: str, order: int) -> None:
     h = STEPS[engine]
@@ -77,6 +78,7 @@ def test_the_users_callback_comes_back() -> None:
     assert mujoco.get_mjcb_act_dyn() is None
 
 
+@pytest.mark.slow
 def test_a_joint_bears_what_a_muscle_leaves() -> None:
     name = "muscle_isometric.rise"
     scene, start = begun(name)

@@ -92,6 +92,7 @@ def why() -> str:
     return said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("does", IMPORTING)
 def test_what_it_does_at_import_is_told(
     does: str, strange: Path, monkeypatch: pytest.MonkeyPatch

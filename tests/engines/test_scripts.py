@@ -137,6 +137,7 @@ def test_a_script_in_space_says_its_sines(name: str) -> None:
     assert turned(name) < 1e-14
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{name}: a sine left out of the user's script")
 @pytest.mark.parametrize("name", SINES)
 def test_a_sine_that_is_not_pasted_is_seen(name: str) -> None:
@@ -205,6 +206,7 @@ def jumped(folder: Path, spoil: Callable[[str], str] = str) -> float:
     return abs(float(data.qvel[0]) - 1.0 - 0.7 - 0.5991 - 0.4 - 0.3009 - 0.2994)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a pasted law that jumps, weighed by RK4's stages")
 @pytest.mark.mutant("a pasted law that jumps, whose step begins where each stage is")
 def test_a_pasted_law_that_jumps_gives_what_the_run_does(tmp_path: Path) -> None:

@@ -276,6 +276,7 @@ allow: {rod.x: 1.0e-2, rod.angle: 1.0e-2}
 """
 
 
+@pytest.mark.slow
 def test_a_force_of_ours_turns_what_it_acts_on(tmp_path: Path) -> None:
     """Planted by hand: one of the two products of its moment about the centre with another sign."""
     case, motion = known(tmp_path, SPINS, 1.0)

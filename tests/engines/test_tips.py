@@ -162,6 +162,7 @@ def a_frame() -> tuple[Scene, Start]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LEANS)
 @pytest.mark.parametrize("k", range(len(STEPS)))
 def test_two_bars_slide_apart(k: int, name: str) -> None:

@@ -48,6 +48,7 @@ def test_typed_values(row: dict[str, Any], known: tuple[Case, Trajectory, Start]
     np.testing.assert_allclose(found, row["forces"], rtol=1e-12, atol=1e-15)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a power of no speed below 1, in an engine")
 def test_a_drag_below_one_is_nothing_at_rest(tmp_path: Path) -> None:
     """(2.86) d |v|^α ends at 0 with v, though |v|^(α − 1) has no number there."""

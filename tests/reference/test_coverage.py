@@ -101,6 +101,7 @@ def marks(text: str) -> list[str]:
     return wrong
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("an equation that is not marked as one")
 def test_each_equation_is_marked() -> None:
     """Those whose body does something: an interface only says."""

@@ -159,6 +159,7 @@ def leaves() -> float:
     raise SystemExit(0)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("an engine that is asked for its pace ends the run")
 def test_who_is_asked_for_his_pace_costs_nobody_anything(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(work, "foreign", lambda name: True)

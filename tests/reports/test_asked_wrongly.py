@@ -103,6 +103,7 @@ def test_a_folder_that_may_not_be_read_costs_its_file(
     assert [mistake.what for mistake in mistakes] == ["cannot be read: Permission denied"]
 
 
+@pytest.mark.slow
 def test_whatever_ends_a_command_is_a_document(tmp_path: Path, file: Path) -> None:
     (tmp_path / "tolerance.csv").write_text("mine\n")
     done = textmech("run", file, "--engine", "pymunk.shipped", "--json", "--out", tmp_path)
@@ -113,6 +114,7 @@ def test_whatever_ends_a_command_is_a_document(tmp_path: Path, file: Path) -> No
     assert (done.returncode, json.loads(done.stdout)["exit_code"]) == (2, 2)
 
 
+@pytest.mark.slow
 def test_a_pipe_is_no_link_that_leads_nowhere(file: Path) -> None:
     code = "from textmech.reports.start import main; main()"
     command = [sys.executable, "-c", code, "check", "/dev/stdin"]
@@ -134,6 +136,7 @@ def test_a_release_has_two_names(one: str, other: str, same: bool) -> None:
     assert alike(one, other) is same
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a worker's share of memory holds what its parent already had")
 def test_memory_is_counted_from_what_a_process_has(monkeypatch: pytest.MonkeyPatch) -> None:
     """A notebook holds more than a worker's share: its workers begin all the same."""

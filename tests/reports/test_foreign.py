@@ -206,6 +206,7 @@ def test_a_table_that_has_our_first_column_alone_is_not_overwritten(
         ownership.unasked(tmp_path, ["u.csv"], overwrite=False)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a picture overwrites a file that is not ours")
 @pytest.mark.parametrize("name", ["a.svg", "a.png", "A.PNG"])
 def test_a_picture_overwrites_no_stranger(name: str, tmp_path: Path) -> None:

@@ -29,6 +29,7 @@ class Silent:
     """Between both [rad]."""
 
 
+@pytest.mark.slow
 def test_every_field_has_a_meaning() -> None:
     bare = [(k.__name__, name) for k in ALL for name, *_, said in nouns.described(k) if not said]
     assert not bare
@@ -58,6 +59,7 @@ def test_every_noun_of_a_scene_is_there() -> None:
     assert not {kind for kind in exported if is_dataclass(kind)} - set(ALL) - shared
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "said",
     [

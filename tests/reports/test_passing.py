@@ -67,6 +67,7 @@ def test_what_a_killed_run_left_goes_with_the_next(other: tuple[Popen[str], Path
         assert mine.is_dir()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", [1, 2, 5])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_struck_it_leaves_none(

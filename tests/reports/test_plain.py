@@ -125,6 +125,7 @@ def test_energy_lost(moving: Case) -> None:
         assert told(scene, reference, motion)[name].value == pytest.approx(3.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_what_the_textbook_loses_is_not_lost() -> None:
     """A damped spring's own loss."""
     name = "spring_mass_damper.critical"

@@ -61,6 +61,7 @@ def leftovers(task: Guest) -> tuple[int, str]:
     return os.getpid(), found
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a process that ran somebody else's engine answers for all")
 def test_what_an_engine_leaves_behind_reaches_nobody_else(monkeypatch: pytest.MonkeyPatch) -> None:
     tasks = [Guest(name) for name in ("", "one", "one", "", "", "two", "one", "")]
@@ -200,6 +201,7 @@ def double(task: int) -> int:
     return task * task
 
 
+@pytest.mark.slow
 def test_a_task_that_comes_back_twice_is_answered_once() -> None:
     """Else its second answer would be that of the next task."""
     with pool.local(1) as executor:
@@ -239,6 +241,7 @@ def leaves(task: tuple[Path, bool]) -> None:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what an engine starts outlives the run")
 @pytest.mark.skipif(not TOLD, reason="nothing tells what runs")
 @pytest.mark.parametrize("dies", [False, True])

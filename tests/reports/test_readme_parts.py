@@ -39,6 +39,7 @@ def test_a_part_without_a_place_is_no_silence(text: str) -> None:
         filled(text, PART)
 
 
+@pytest.mark.slow
 def test_every_comment_is_a_parts_and_every_part_has_its_comments() -> None:
     """In all files that a person reads: what nothing renews any more is not called generated."""
     told = {
@@ -82,6 +83,7 @@ def test_shares_are_counted_by_the_worst_quantity_of_a_case() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_what_tuned_still_misses_is_another_model() -> None:
     """As the README says: the case declares it."""
     rows = read(HERE / "tolerance.csv", Comparison)

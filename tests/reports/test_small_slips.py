@@ -152,6 +152,7 @@ def test_what_friction_stops_falls_to_zero_as_it_stops(after: float) -> None:
     assert engine_events(scene, record, event) == pytest.approx([seen], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_what_only_decays_does_not_come_to_rest(tmp_path: Path) -> None:
     text = """\
 scene:
@@ -168,6 +169,7 @@ allow: {b.x: 1.0e-3, at.time: 1.0e-2}
     assert reading(case.scene, record, case.events["turns"], np.zeros(0), 1e-3) == 0.0
 
 
+@pytest.mark.slow
 def test_what_comes_too_soon_for_a_step_is_no_reproach(tmp_path: Path) -> None:
     """Three steps before it breaks loose, and two of three before the end of a short motion."""
     case = typed(
@@ -181,6 +183,7 @@ def test_what_comes_too_soon_for_a_step_is_no_reproach(tmp_path: Path) -> None:
     assert rows["loose.count"].verdict == AGREES
 
 
+@pytest.mark.slow
 def test_a_motion_of_ten_steps_has_its_rows(tmp_path: Path) -> None:
     (tmp_path / "one.yaml").write_text(f"title: t\n{FREE}duration: 0.03\nsamples: 3\n")
     (tmp_path / "own.yaml").write_text("pymunk: {damping: 0, step: 0.003}\n")
@@ -192,6 +195,7 @@ def test_a_motion_of_ten_steps_has_its_rows(tmp_path: Path) -> None:
     assert "none is found" in " ".join(done.stdout.split())
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a step that is cut has a middle, half a step back along what follows")
 def test_what_is_cut_is_where_the_body_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It lands less than half a step before a step ends."""
@@ -207,6 +211,7 @@ def test_what_is_cut_is_where_the_body_was(tmp_path: Path, monkeypatch: pytest.M
     assert (errors()["hits.time"] or 0.0) > 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("speed", "duration"), [(1.2, 1.0), (0.9, 1.0), (1.2, 0.7), (1.2, 2.3)])
 def test_the_exact_motion_at_steps_is_it(speed: float, duration: float, tmp_path: Path) -> None:
     """Also where it stops on a sample, behind which are rows an ulp apart; and at its very end."""

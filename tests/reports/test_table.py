@@ -1,5 +1,7 @@
 """Tables for a terminal of 80 columns and for a page."""
 
+import pytest
+
 from textmech.reports.data.row import Comparison, Rungs
 from textmech.reports.output import write
 from textmech.reports.show.summary import Line, approximations, summary
@@ -32,6 +34,7 @@ def test_a_name_is_never_broken() -> None:
     assert f"  {name}" in narrow([Line("c", name, "a b ×2", "none", "x y")])
 
 
+@pytest.mark.slow
 def test_the_committed_reports_fit() -> None:
     rows = write.read(write.HERE / "tolerance.csv", Comparison)
     rungs = write.read(write.HERE / "convergence.csv", Rungs)

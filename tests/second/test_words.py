@@ -89,6 +89,7 @@ def keys(told: Any) -> Iterator[str]:
         yield told
 
 
+@pytest.mark.slow
 def test_every_word_of_the_grammar_is_read_or_has_a_line() -> None:
     assert unread(grammar(), literals()) == set()
     assert unread(fields(), literals() | set(MADE)) == set()
@@ -99,6 +100,7 @@ def test_no_line_is_about_what_is_no_word() -> None:
     assert set(words.UNDRAWN) <= grammar()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a new word of the grammar that the second reading passes over")
 def test_a_new_word_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     assert unread(grammar() | {"gearbox"}, literals()) == {"gearbox"}

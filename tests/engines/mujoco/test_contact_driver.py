@@ -39,6 +39,7 @@ def test_a_block_leaves_the_friction_cone(name: str) -> None:
     assert off(name) < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{name}: normal force of the step's start")
 @pytest.mark.parametrize("name", ["friction_cone.forward", "friction_cone.backward"])
 def test_mutant_normal_force_of_the_step_s_start(

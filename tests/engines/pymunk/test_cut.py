@@ -133,6 +133,7 @@ def test_two_corners_land_at_once(falls: Falls) -> None:
     assert off(case, exact, found, "left.normal") < 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bouncing_disk.elastic", "bouncing_ball"])
 def test_what_falls_freely_bounces_at_the_right_instant(name: str) -> None:
     """Natively 8.6e-4 and 2.8e-4 m: what lands late is thrown back late, and keeps no less."""

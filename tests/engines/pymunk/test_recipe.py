@@ -31,6 +31,7 @@ def without(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", ["constraint.error_bias", "time.midpoint"])
 def test_a_pendulum_misses_its_bar_without(monkeypatch: pytest.MonkeyPatch, number: str) -> None:
     without(monkeypatch, number)

@@ -226,6 +226,7 @@ def test_a_tip_that_stands_slips_as_fast_the_other_way(monkeypatch: Patch) -> No
     assert slips(monkeypatch) < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a circle under a pivot that is held at its own lowest point")
 def test_a_circle_held_at_its_own_lowest_point_is_seen(monkeypatch: Patch) -> None:
     def carry(self: Foot, slip: float) -> None:

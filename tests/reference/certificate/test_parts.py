@@ -84,6 +84,7 @@ def at_event(late: float) -> Check:
     return next(c for c in found if c.name == "error of takes_off.jumper.vy")
 
 
+@pytest.mark.slow
 def test_a_state_at_an_event_is_known_as_well_as_its_time() -> None:
     """Beside what it is off by itself, the fastest change times what the event is late."""
     motion = scenes.solved(JUMP).trajectory
@@ -150,6 +151,7 @@ def broken(folder: Path) -> set[str]:
     return {check.name.partition(" (")[0] for check in checks if not check.holds}
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{what} a thousandth off, in a claim about states")
 @pytest.mark.parametrize("what", STATES)
 def test_a_check_of_states_fails_by_itself(what: str, tmp_path: Path, monkeypatch: Patch) -> None:

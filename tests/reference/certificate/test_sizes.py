@@ -336,6 +336,7 @@ def test_what_is_small_holds(tmp_path: Path, name: str) -> None:
     assert not broken(small(tmp_path, name))
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("T of 1 rad/s beside T of 1 m/s, and of what is driven, to all its digits")
 @pytest.mark.parametrize("name", SMALL)
 def test_rates_of_one_are_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:

@@ -52,5 +52,6 @@ def test_what_a_start_is_known_to_is_stated(
     assert stated(case)[1] < 1e-15
 
 
+@pytest.mark.slow
 def test_a_sound_start_costs_no_second_motion(tmp_path: Path) -> None:
     assert mechanism(beside(tmp_path, 0.1)).beside is None

@@ -107,6 +107,7 @@ def test_what_is_pushed_again_stops_at_a_time_that_is_known(
         solve(case)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("work that is none is halved for nobody's bar")
 def test_work_that_is_none_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[int] = []

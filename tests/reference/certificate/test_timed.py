@@ -213,6 +213,7 @@ def test_a_force_that_is_known_exactly_is_seen(
     assert any(off > 100.0 * may for off, may in found)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the slope of a guard left out of what is stated of its event's time: a {kind}")
 @pytest.mark.parametrize("kind", ["throw", "swing"])
 def test_an_error_without_the_slope_is_seen(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -223,6 +224,7 @@ def test_an_error_without_the_slope_is_seen(kind: str, monkeypatch: pytest.Monke
     assert any(off > 100.0 * may for off, may in found)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("the state's own error left out of what a guard is known to")
 def test_a_guard_that_is_known_exactly_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timed, "sizes", lambda peak, tolerance: 0.0 * peak)

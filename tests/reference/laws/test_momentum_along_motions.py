@@ -101,6 +101,7 @@ def test_another_law_does_not_hold(wrong: Callable[[System], float], in_the_plan
     assert wrong(in_space()) > 1e-2
 
 
+@pytest.mark.slow
 def test_the_point_must_move_as_its_acceleration_says(monkeypatch: pytest.MonkeyPatch):
     """A centre of mass, too, is a moving point: there M_A + m r̈_A × a = M_c."""
     s = in_space()

@@ -66,6 +66,7 @@ def test_no_velocity_is_taken_where_the_laws_allow_none(tmp_path: Path, seed: in
         told(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [0, 1])
 @pytest.mark.parametrize("seed", OPEN)
 def test_what_the_laws_leave_open_is_said(tmp_path: Path, seed: int, order: int) -> None:
@@ -87,6 +88,7 @@ def test_one_of_several_taken_is_seen(tmp_path: Path, monkeypatch: pytest.Monkey
     assert max(np.max(np.abs(v - told(found)[0])) for v in known) > 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("rows of a blow that depend on each other solved as if they did not")
 def test_a_blow_on_dependent_rows_without_their_rank_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

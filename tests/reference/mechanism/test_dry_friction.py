@@ -139,6 +139,7 @@ allow: {low.x: 1.0e-3, r2.shift: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 def test_what_two_slides_hold_at_zero_rests(tmp_path: Path) -> None:
     """Nothing but friction acts on the lower one; the upper slips from t₀ = 0.398 s on.
 
@@ -151,6 +152,7 @@ def test_what_two_slides_hold_at_zero_rests(tmp_path: Path) -> None:
     assert x == pytest.approx(10.0 * slips**3 / 6 / 3.27, abs=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what forces leave of no more than their rounding, beside applied ones alone")
 def test_rounding_that_moves_what_is_held_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -65,6 +65,7 @@ allow: {b.x: 0.1, ends.torque: 0.1}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [4.0, 3.0, 2.0])
 @pytest.mark.mutant("nothing as small as rounding where no force acts")
 def test_what_no_force_moves_stays_at_its_stop(rate: float, tmp_path: Path) -> None:

@@ -22,6 +22,7 @@ def test_law_on_random_scenes(law: Law) -> None:
     assert max(found) < EXACT
 
 
+@pytest.mark.slow
 def test_the_random_scenes_have_everything() -> None:
     """Negative control of the generator: each kind of part appears, loops and driven points too."""
     made = [m.scene for m, _ in random_scenes.mechanisms(COUNT)]

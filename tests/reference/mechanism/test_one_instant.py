@@ -194,6 +194,7 @@ def test_two_corners_that_bounce_at_one_instant_are_refused(
         flat(tmp_path, what, 0.5, 0.0, swapped=swapped)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "two corners that strike at one instant, one after the other in the file's order"
 )
@@ -286,6 +287,7 @@ allow: {a.angle: 1.0e-3}
 PRESSED = ["0.0", "-1.0e-12", "-1.0e-6"]  # N m: bars in line, by rounding or by a force
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a stop between two bodies taken for one on the ground, which holds a blow")
 @pytest.mark.mutant("a stop that touches without a force, asked before a blow whether it closes")
 @pytest.mark.parametrize("press", PRESSED)
@@ -305,6 +307,7 @@ def test_a_stop_that_touches_is_struck_at_the_same_instant(
     assert solve(case).trajectory.states["a"][-1, 5] == pytest.approx(rates[press], abs=1e-5)
 
 
+@pytest.mark.slow
 def test_stops_that_throw_nothing_back_are_one_blow(tmp_path: Path) -> None:
     text = LEG.replace("PRESS", "0.0").replace(", restitution: 0.3", "")
     assert solve(scenes.typed(tmp_path, text, tail=scenes.tail(0.4, 21))).holds

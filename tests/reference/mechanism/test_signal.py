@@ -100,6 +100,7 @@ def test_a_wrong_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> N
     assert off(law) > 1e-8
 
 
+@pytest.mark.slow
 def test_a_step_ends_at_each_corner() -> None:
     case = scenes.SHIPPED["pushed_cart.pulse"]
     rows = follow(scenes.mechanism(case), case.times, every=True).rows

@@ -35,6 +35,7 @@ allow: {b.x: 1.0e-3, go.r.friction.before: 0.1, go.r.friction.after: 0.1}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a force that jumps at a corner has acted in the mode that it ends")
 def test_what_lifts_at_a_corner_has_pressed_until_then(tmp_path: Path) -> None:
     case = typed(tmp_path, LIFTED)
@@ -46,6 +47,7 @@ def test_what_lifts_at_a_corner_has_pressed_until_then(tmp_path: Path) -> None:
     assert not len(reference_events(case.scene, record, case.events["up"]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("side", "friction"), [("before", 0.0), ("after", -3.0)])
 def test_what_breaks_loose_at_a_corner_was_not_pushed_before(
     side: Side, friction: float, tmp_path: Path

@@ -53,6 +53,7 @@ def certified(solution: Solution, name: str) -> float:
     return check.certified
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what happens within a picosecond behind the last sample is its, however short")
 def test_what_would_stop_after_the_end_has_not_stopped(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -154,6 +155,7 @@ allow: {b.x: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a corner beside a sample is the sample")
 @pytest.mark.parametrize("at", ["0.333333333333", "0.3333333333333333", "0.33333333333333337"])
 def test_a_corner_beside_a_sample_is_itself(

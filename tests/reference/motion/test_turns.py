@@ -247,6 +247,7 @@ def spun(
     return scenes.typed(folder, text, tail="")
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("gimbal lock passed beside it where a step falls on the nearest point")
 @pytest.mark.parametrize("samples", [4, 7, 13, 25])
 @pytest.mark.parametrize("beside", [1e-6, 1e-7])
@@ -266,6 +267,7 @@ def test_who_passes_gimbal_lock_beside_it_is_not_certified(
     assert not solve(case).holds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("samples", [3, 9, 25])
 def test_who_leaves_what_skew_turns_can_make_is_refused(samples: int, tmp_path: Path) -> None:
     axes = [[1.9, 0.48, -1.58], [1.73, 0.35, -0.94], [0.91, 0.02, -0.62]]

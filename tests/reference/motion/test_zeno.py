@@ -61,6 +61,7 @@ allow: {wheel.x: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("vx", "mode"), [(1.0, "touch sticks"), (30.0, "touch slides +")])
 def test_what_it_does_on_the_floor_after_the_last_bounce(tmp_path: Path, vx: float, mode: str):
     """Friction has had μ times the momentum of the floor, m (2 g t₁ + … + g τ), or it rolls."""
@@ -249,6 +250,7 @@ def test_what_rubs_between_bounces_rests_after_the_last(tmp_path: Path) -> None:
     assert not last[3:].any()
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what turns round between bounces without end ends the motion")
 def test_friction_that_ends_the_bounces_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -71,6 +71,7 @@ def test_near_a_turn_off_what_is_given_is_a_mistake_in_the_plane(tmp_path: Path)
         assert "upper.angle is 17.19 deg; say one of these" in mistake.what
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("near by a joint's angle is no guess in the plane")
 @pytest.mark.parametrize(("angle", "side"), [(50.0, -1), (-50.0, 1), (310.0, 1), (-670.0, -1)])
 def test_near_a_joint_s_angle_in_the_plane(angle: float, side: int, tmp_path: Path) -> None:
@@ -95,6 +96,7 @@ def test_near_a_joint_s_shift_in_the_plane(shift: float, side: int, tmp_path: Pa
     assert found == pytest.approx(0.1 + side * math.sqrt(0.36 - rise * rise), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_shift_in_the_middle_decides_nothing(tmp_path: Path) -> None:
     """The two places of the piston are as far from 0.1 m, above which the crank's end is."""
     with pytest.raises(CaseError, match="can be assembled in 2 ways"):
@@ -186,6 +188,7 @@ allow: {rod.z: 1.0e-3}
 """
 
 
+@pytest.mark.slow
 def test_a_chain_that_a_body_holds_may_have_two_ways(tmp_path: Path) -> None:
     """A rod by its x alone is up or down, though nothing closes a loop."""
     with pytest.raises(CaseError, match=r"can be assembled in 2 ways: q\.angle"):
@@ -249,6 +252,7 @@ def pair(folder: Path, first: float, second: float) -> float:
     return -2 * math.atan2(y, w)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("in space all starts of the search are what is near")
 @pytest.mark.parametrize(
     ("first", "second"), [(0.0, 0.1), (0.0, -0.1), (-0.4, -0.3), (0.9, 0.2), (-1.5, 0.0)]
@@ -262,6 +266,7 @@ def test_near_that_names_every_turn_is_a_guess_all_the_same(
     assert found == pytest.approx(min(off, key=off.__getitem__) * BETA, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_in_the_middle_of_all_turns_it_decides_nothing(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="can be assembled in 2 ways"):
         pair(tmp_path, 0.0, 0.0)

@@ -148,6 +148,7 @@ DEPENDENT: dict[str, tuple[str, str]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", DEPENDENT)
 def test_what_repeats_others_is_named(part: str, tmp_path: Path) -> None:
     text, words = DEPENDENT[part]

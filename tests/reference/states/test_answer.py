@@ -101,6 +101,7 @@ MISTAKES: dict[str, tuple[str, Any, str, Callable[..., Any]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{mistake}")
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_in_a_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -111,6 +112,7 @@ def test_a_mistake_in_a_law_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatc
     assert apart(case) > 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("{name}: mass of a body 5 % off in the scene alone")
 @pytest.mark.parametrize("name", WRITTEN)
 def test_a_scene_of_another_mass_is_seen(name: str) -> None:
@@ -171,6 +173,7 @@ class Heavier(SpatialChain):
         return 1.05 * super().T(t, q, v)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("kinetic energy of a chain 5 % too large")
 def test_energy_against_virtual_work(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     case = claimed(tmp_path, CHAIN)
@@ -187,6 +190,7 @@ def refused(case: Case) -> list[tuple[str, str]]:
     return [(m.where, m.what) for m in caught.value.mistakes]
 
 
+@pytest.mark.slow
 def test_a_bound_beyond_what_is_known_is_refused() -> None:
     case = few("robot_states")
     ((where, what),) = refused(replace(case, allow={**case.allow, "q2.torque": 1e-14}))
@@ -194,6 +198,7 @@ def test_a_bound_beyond_what_is_known_is_refused() -> None:
     assert "asks more than can be certified" in what
 
 
+@pytest.mark.slow
 def test_what_is_the_same_in_every_state_is_no_claim() -> None:
     case = few("robot_states")
     ((where, what),) = refused(replace(case, allow={"base.alpha_x": 1e-10}))

@@ -153,6 +153,7 @@ allow: {bar.x: 1.0e-12, bar.ax: 1.0e-11}
 """
 
 
+@pytest.mark.slow
 def test_a_chain_does_not_pass_over_a_far_centre(tmp_path: Path) -> None:
     """bar.x = 0.2 + 0.35 cos(s + h): over the centre, a million metres off, 5e-11 m are lost."""
     (tmp_path / "far.yaml").write_text(FAR, encoding="utf-8")
@@ -190,6 +191,7 @@ allow: {s.shift_force: 1.0e-6}
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [FAST, MAP], ids=["turns that nobody counts", "far away"])
 def test_what_is_read_back_is_small_against_what_it_is_read_from(text: str, tmp_path: Path) -> None:
     (tmp_path / "claim.yaml").write_text(text, encoding="utf-8")

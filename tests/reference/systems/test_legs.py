@@ -78,6 +78,7 @@ def test_take_off_of_the_jump_in_other_coordinates(alpha: float) -> None:
 LATER: dict[str, Any] = {"g": lambda t, q, v: 1.001 - float(q[0])}
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("a take-off 1 mm late", "a jumping leg that never lets go")
 def test_a_leg_that_pulls_is_seen() -> None:
     """A take-off that is 1 mm late, and one at which the leg never lets go."""

@@ -110,6 +110,7 @@ def test_length_only_sets_the_time():
     assert lasts == pytest.approx(3.88246375 * math.sqrt(l / G), rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.mutant(
     "simplest walker: no slope",
     "simplest walker: a strike that keeps all speed",

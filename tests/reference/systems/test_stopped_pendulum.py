@@ -45,6 +45,7 @@ def test_bounces_that_pile_up_end_at_rest() -> None:
     assert case.scene.forces["stop"].numbers() == {"low": -math.pi / 3}
 
 
+@pytest.mark.slow
 def test_what_rests_on_a_stop_presses_with_the_moment_of_its_weight() -> None:
     case = scenes.SHIPPED["stopped_pendulum.rests"]
     torque = observe(case.scene, scenes.solved(case.name).trajectory, "stop.torque")

@@ -133,6 +133,7 @@ def test_a_joint_that_leaves_everything_holds_nothing(turns: list[Freedom], back
     assert max(np.max(np.abs(values)) for values in motion.reactions.values()) < 1e-9
 
 
+@pytest.mark.slow
 def test_pushes_and_torques_keep_the_axes_of_the_ground() -> None:
     times = np.linspace(0.0, 1.0, 5)
     at = np.array([0.1, -0.2, 0.05])

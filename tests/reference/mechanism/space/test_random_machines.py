@@ -43,6 +43,7 @@ def test_accelerations_without_multipliers(form, kind: str, seed: int, *, driven
     assert found < EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", MAKES)
 def test_chaplygin_never_applies(kind: str) -> None:
     """(2.67) A quaternion's rates depend on each other, and it appears everywhere."""

@@ -80,6 +80,7 @@ def damper_backward(*numbers: float) -> float:
 COUPLE, TORSION, DAMPER = turning.Between.couple, action.torsion, action.torsion_damper
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("about a turn in space: {wrong}")
 @pytest.mark.parametrize(
     ("room", "name", "wrong"),

@@ -30,6 +30,7 @@ def same(one: Any, other: Any) -> bool:
     return type(one) is type(other) and (one == other or (one != one and other != other))
 
 
+@pytest.mark.slow
 def test_a_solution_comes_back() -> None:
     """With events: it has a record and phases."""
     solution = scenes.solved("rolling_wheel.pushed")

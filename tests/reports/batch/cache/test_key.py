@@ -55,6 +55,7 @@ def words(case: Case = CASE, engine: Any = ENGINE) -> tuple[str, str]:
     return keys.solution(case), keys.outcome(keys.ways(case, engine), "native")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("field", [f.name for f in fields(Case) if f.name not in SAME])
 def test_every_field_of_a_case_counts(field: str) -> None:
     other = replace(CASE, **{field: OTHER.get(field, {"other": 1.0})})
@@ -70,6 +71,7 @@ def test_a_number_counts_to_the_last_bit() -> None:
     assert words(replace(CASE, parameters=near))[0] != words()[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "engine",
     [make("pymunk", "shipped"), make("pymunk", "own", {"iterations": 30}),
@@ -373,6 +375,7 @@ def test_who_stands_in_front_of_a_package_is_a_part_of_it(
     assert parts.located("pymunk") == [*plain, front]
 
 
+@pytest.mark.slow
 @pytest.mark.mutant("what Python runs before all else in no key")
 def test_what_python_runs_first_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = words()[1]

@@ -62,6 +62,7 @@ def test_a_candidate_with_the_tuned_options_is_the_tuned_row(engine: str, tmp_pa
         assert of(found, quantity) == pytest.approx(of(rows, quantity), rel=1e-6, abs=CUT)
 
 
+@pytest.mark.slow
 def test_beside_an_instant_the_error_elsewhere_is_told_too(tmp_path: Path) -> None:
     """As shipped MuJoCo's contact is not closed at the first sample."""
     asked = pair(tmp_path, "rolling_wheel.downhill", "mujoco")
@@ -88,6 +89,7 @@ def test_another_count_of_events_leaves_their_times_without_an_error(tmp_path: P
     assert of(found, "bounces.time") == inf
 
 
+@pytest.mark.slow
 def test_a_tolerance_that_is_not_known_is_never_kept(tmp_path: Path) -> None:
     asked = pair(tmp_path, "bar_pendulum", "mujoco")
     allow = {**asked.case.allow, "energy.total": None}
