@@ -2,7 +2,7 @@
 
 The laws are asked at states, and their bounds are those of rounding. Two motions are also as far
 apart as the motion is sensitive: what that may be is a share of what the case asks (`errors`), and
-one answer may be little farther from the others than two integrators of one system are.
+one answer may be `LOOSER` times farther from the others than two integrators of one system are.
 """
 
 import math
@@ -45,7 +45,7 @@ LOOSER = 100  # times what two integrators differ by: two samples of one error m
 COARSER = 1e-13  # tolerance of the second answer where there is only one stiff integrator
 UNROLLED = 0.5  # rad: a turn lost is 6.3; the integral over the march's steps is 0.01 off at most
 STAGES = 7  # Radau IIA of order 13: five stages need twice the time at this tolerance
-APART = 1e-9  # of two samples: a corner nearer to one is none between them
+CORNER_GAP = 1e-9  # of two samples: a corner nearer to one is none between them
 QUARTERS = (0.0, 0.25, 0.5, 0.75)  # of a sample: longer steps, of order 13, lose up to two digits
 
 
@@ -106,7 +106,7 @@ def certify(
         others["another start"] = replace(
             built, system=generated.beside, followed=other
         ).trajectory(times)
-    late = worst([drifted, alone, *(_apart(followed, other) for other in found.values())])
+    late = worst([drifted, alone, *(_events_apart(followed, other) for other in found.values())])
     worked = partial(work_errors, case, motion, written)
     return (*checks, *errors(case, motion, others, late, worked))
 
@@ -133,7 +133,7 @@ def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
 
     whole: whether an interval without a corner stays whole.
     """
-    least = APART * float(times[1] - times[0])
+    least = CORNER_GAP * float(times[1] - times[0])
     edges = times
     for corner in corners:
         if times[0] < corner < times[-1] and np.min(np.abs(edges - corner)) > least:
@@ -159,7 +159,7 @@ def _other(mode: Mode, f: Slope, n: int) -> Method:
     return Radau(f, TOLERANCE, radau_table(STAGES))
 
 
-def _apart(one: Followed, other: Followed) -> float:
+def _events_apart(one: Followed, other: Followed) -> float:
     """The largest difference [s] of the times at which modes change; infinite if counts differ."""
     return times_apart([c.time for c in one.changes], [c.time for c in other.changes])
 
@@ -174,7 +174,7 @@ def _events(
     close = instant(until)
     for name, other in found.items():
         if followed.changes or other.changes:
-            yield Check(name, _apart(followed, other), max(OTHER_EVENTS * close, late))
+            yield Check(name, _events_apart(followed, other), max(OTHER_EVENTS * close, late))
     events = system.closed_events(until)
     if events is not None and (events or followed.events):
         yield Check("closed events", _known(followed, events), max(OWN_EVENTS * close, late))
@@ -201,7 +201,7 @@ def _closed_form(system: System, times: Array) -> Array | None:
 
 
 def _drift(system: System, followed: Followed, bound: float) -> Iterator[Check]:
-    """Residual of (2.14) at the steps of the march, where there is one, to the coordinates."""
+    """The residual of (2.14) at the march's steps, if it has rows, over the largest coordinate."""
     steps = [(t, followed.phases[k], y) for t, k, y in followed.march]
     found = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in steps]
     if any(len(residual) for residual in found):

@@ -91,7 +91,7 @@ def snippet(
 def _keep(
     numbers: Mapping[str, Any], changed: Mapping[str, Any], default: ET.Element
 ) -> Iterator[str]:
-    """What shares an element of <default> with what has changed, and has other numbers itself."""
+    """A sentence for each group whose element of <default> has changed, but not its own numbers."""
     for word, group in GROUPS.items():
         found = default.find(group.default)
         if found is None or word == "pair" or attributes(changed, word):
