@@ -17,9 +17,8 @@ _QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}}
 
 # The units a case can use. The angle is a dimension of its own here (to pint's own table it is
 # none), so that an angle is no friction coefficient. So is what Hz counts: 2 Hz could mean 2 or
-# 4π rad/s, and N m/Hz as many N m s/rad; no field takes it. A gram is a gramme by name: pint gives
-# the kgram the name of prefix and unit, and a kilogram of 1000 grams, each 1e-3 of it, would have
-# no end.
+# 4π rad/s, and N m/Hz as many N m s/rad; no field takes it. A gram is a gramme by name: pint would
+# read `kilogram` as kilo and gram, and the gram is defined by the kilogram.
 _UNITS = """
 nano- = 1e-9 = n-
 micro- = 1e-6 = µ- = μ-
@@ -46,8 +45,8 @@ ampere = [current] = A
 coulomb = ampere * second = C
 tesla = kilogram / ampere / second**2 = T
 """
-# In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Beyond them squares of products of two
-# leave the doubles, or nearly.
+# In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Within them products of five, as a
+# determinant has, stay doubles, which go from 1e-308 to 1e308.
 SMALLEST, LARGEST = 1e-60, 1e30
 TURN = 2 * math.pi
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
@@ -131,7 +130,10 @@ def number(value: object, unit: str | None, known: Names) -> Amount | None:
     if found is None:
         return None
     sign = -1.0 if value.startswith("-") else 1.0
-    text = f"{value} = {found.text or f'{sign * found.value:g}'}"
+    as_typed = found.text or f"{found.value:g}"
+    if sign < 0.0:
+        as_typed = as_typed.removeprefix("-") if as_typed.startswith("-") else f"-{as_typed}"
+    text = f"{value} = {as_typed}"
     return turned(fitting(Amount(sign * found.value, found.dimension, text), unit), unit)
 
 

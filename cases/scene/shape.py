@@ -34,7 +34,7 @@ class Count(Plain):
             by_name = f" ({value})" if isinstance(value, str) else ""
             raise wrong(
                 f"should be a whole number from {self.least} to {self.most}, is "
-                f"{found.value:g}{by_name}"
+                f"{found.value:.15g}{by_name}"
             )
         return round(found.value)
 

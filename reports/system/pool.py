@@ -257,7 +257,10 @@ class _Process:
     def _how(self) -> str:
         code = self._process.exitcode
         assert code is not None  # it has been joined
-        return signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        if code >= 0:
+            return f"exit code {code}"
+        known = {number.value: number.name for number in signal.Signals}
+        return known.get(-code, f"signal {-code}")  # those for real time have no names
 
 
 @contextmanager

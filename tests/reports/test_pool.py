@@ -27,6 +27,20 @@ def work(task: int) -> int:
     return task * task
 
 
+def struck(task: int) -> int:
+    if task == 1:
+        os.kill(os.getpid(), signal.SIGRTMIN + 2)
+    return task
+
+
+def test_a_signal_without_a_name_is_one() -> None:
+    """And the process that it ended is replaced: the next task is answered."""
+    with pool.local(1) as executor:
+        found = dict(pool.spread(struck, [0, 1, 2], executor))
+    died = pool.Died(f"the process died (signal {signal.SIGRTMIN + 2})")
+    assert found == {0: 0, 1: died, 2: 2}
+
+
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_the_rest_goes_on(jobs: int) -> None:
     with pool.local(jobs) as executor:

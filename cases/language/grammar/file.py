@@ -86,6 +86,8 @@ class RuleWords(Plain):
         if len(value) != 1:
             raise wrong(f"should be one rule with its value, as {MAP}, has {len(value)}")
         ((word, to),) = value.items()
+        if word in RULES:
+            raise wrong(f"{word!r} takes no value: write it alone, or {MAP}")
         if word not in CROSSES:
             raise wrong(f"unknown rule {word!r}{nearest(word, CROSSES)}")
         if to is None:

@@ -29,8 +29,10 @@ _SHELF = re.compile(r"[0-9a-f]{2}")
 
 def by_default() -> Path:
     """The user's own: never the project's. The same from wherever a process looks."""
+    if named := os.environ.get(FOLDER):
+        return Path(named).absolute()
     base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(os.environ.get(FOLDER) or Path(base) / "textmech").absolute()
+    return (Path(base) / "textmech").absolute()
 
 
 def usable() -> "Store | None":

@@ -179,6 +179,18 @@ def test_an_entry_of_another_user_is_used(kept: Store, monkeypatch: pytest.Monke
     assert kept.get(KEY) == [1.5, "two"]
 
 
+def test_who_names_it_needs_no_home(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def homeless() -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.setattr(Path, "home", homeless)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setenv(store.FOLDER, str(tmp_path / "mine"))
+    assert store.by_default() == tmp_path / "mine"
+    monkeypatch.delenv(store.FOLDER)
+    assert store.usable() is None
+
+
 def test_it_is_the_same_from_every_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Workers have another current one."""
     monkeypatch.chdir(tmp_path)
