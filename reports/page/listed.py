@@ -63,7 +63,7 @@ ORDER = (
 """Which methods are told, the motion's own first."""
 NUMBERS = re.compile(r"((?:\(2\.\d+\)(?:, |–| and )?)+) ?(.*)", re.DOTALL)
 SHAPE = re.compile(r",? \((?:\w+, ?)+\w*\)(?=[.:]?$)")
-UNIT = re.compile(r" \[((?:rad|kg|[NmsJW])\b[^\]]*)\]")
+UNIT = re.compile(r" \[((?:rad|kg|[NmsJW]|1/s)(?![A-Za-z])[^\]]*)\]")
 STATES = re.compile(r"[=≤≥<>]")
 TAIL = re.compile(r"[,:;] (?=(?:[A-Za-z’']{2,} ){2})")  # where words begin that go on
 PROSE = re.compile(r"(?:[A-Za-z’']{3,}[ ,.;:]*){3}")  # three words in a row
@@ -139,15 +139,15 @@ FUNCTIONS = frozenset(
 SUBSCRIPTS = {
     ord(a): b for a, b in zip("₀₁₂₃₄₅₆₇₈₉₊₋ᵢⱼₖₐᵦᵣₓₛₜₙ", "0123456789+−ijkaβrxstn", strict=True)
 }
-SUPERSCRIPTS = {ord(a): b for a, b in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃᵇⁿᵗᵢ", "0123456789+−Tabnti", strict=True)}
+SUPERSCRIPTS = {ord(a): b for a, b in zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃᵇⁿᵗⁱ", "0123456789+−Tabnti", strict=True)}
 MARKS = "\u0307\u0308\u0303\u0304\u0302"  # dots, tilde, bar, hat
 
 LOW = "".join(map(chr, SUBSCRIPTS))
-HIGH = "".join(map(chr, SUPERSCRIPTS)).replace("ᵢ", "")
+HIGH = "".join(map(chr, SUPERSCRIPTS))
 BASE = rf"(?:[^\W\d_{LOW}{HIGH}])"
-WORD = r"[A-Za-z]{2,}"
+WORD = r"[A-Za-z]{2,}+"  # the whole of it, or none
 TOKEN = re.compile(
-    rf"(?P<word>{WORD}(?![{MARKS}_{LOW}]))"
+    rf"(?P<word>(?:{'|'.join(sorted(FUNCTIONS))})(?![A-Za-z])|{WORD}(?![{MARKS}_{LOW}]))"
     rf"|(?P<name>{BASE}[{MARKS}]*)"
     r"|(?P<number>\d+(?:\.\d+)?)"
     r"|(?P<space>\s+)"
@@ -155,7 +155,7 @@ TOKEN = re.compile(
 )
 AFTER = re.compile(
     rf"(?P<primes>[′']*)(?:(?P<low>[{LOW}]+)|_(?:\{{(?P<braced>[^}}]*)\}}|(?P<one>(?:(?![{HIGH}])\w)+)))?"
-    rf"(?P<more>[′']*)(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>[−\w])))?"
+    rf"(?P<more>[′']*)(?P<high>[{HIGH}]*)(?:\^(?:\{{(?P<over>[^}}]*)\}}|(?P<up>−?(?:\d+|\w))))?"
 )
 CLOSING = ")]}|∞"
 FENCES = "()[]{}|"

@@ -7,7 +7,7 @@ import pytest
 
 from textmech.cases.case import Case
 from textmech.reports.batch.selection import choose_cases
-from textmech.reports.page.listed import equations, mathml
+from textmech.reports.page.listed import _equation, equations, mathml
 
 
 def told(line: str) -> str:
@@ -27,6 +27,17 @@ def test_indices_and_exponents_of_more_letters_go_together() -> None:
     assert "<mi>k</mi><mo>,</mo>" in mathml("ω_{k,k−1}")
     assert "<mrow><mn>1</mn><mo>−</mo><mi>α</mi></mrow></msup>" in mathml("v^{1−α}")
     assert mathml("ṙ_c²").count("<msubsup>") == 1
+    assert '<mi mathvariant="normal">max</mi><mrow><mi>i</mi>' in mathml("max_i x")
+    assert "<mrow><mn>10</mn></mrow></msup>" in mathml("v^10")
+    assert "<mrow><mo>−</mo><mn>1</mn></mrow></msup>" in mathml("v^−1")
+
+
+@pytest.mark.parametrize("unit", ["m²/s²", "1/s", "rad/s²", "N m"])
+def test_a_unit_behind_an_equation_is_no_part_of_it(unit: str) -> None:
+    found = _equation("(2.5)", f"a = b c [{unit}]")
+    assert found is not None
+    assert found.unit == unit
+    assert "[" not in found.html
 
 
 def test_what_would_be_markup_is_a_sign() -> None:
