@@ -101,7 +101,9 @@ def test_what_is_waited_for_is_the_tables() -> None:
     told = [60 * float(n) for n in re.findall(minutes, said)] + [
         float(n) for n in re.findall(seconds, said)
     ]
-    assert sorted(told) == pytest.approx(sorted(wall[what] for what in readme.TOLD), rel=0.05)
+    assert sorted(told) == pytest.approx(
+        sorted(wall[what] for what in readme.TOLD), rel=0.05, abs=0.5
+    )  # whole seconds
     assert said.startswith("On a server with two cores: `make reports` takes about")
 
 
