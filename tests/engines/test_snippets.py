@@ -20,6 +20,7 @@ from textmech.engines.knobs import Options
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.adapter.compilation import compiled, timestep
 from textmech.engines.mujoco.model.scene import mjcf
+from textmech.engines.mujoco.settings import snippet as snippets
 from textmech.engines.pymunk import Pymunk
 from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import building
@@ -95,6 +96,18 @@ def test_what_one_default_cannot_say_of_two_groups_is_a_comment(
     wanted, _ = compiled(scene, start, STEP, plan)
     assert not differing(mujoco.MjModel.from_xml_string(pasted), wanted)
     assert differing(mujoco.MjModel.from_xml_string(head + snippet + tag + rest), wanted)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a snippet does not say which equalities keep their numbers")
+def test_equalities_that_change_unsaid_would_be_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(snippets, "_keep", lambda *_: ())
+    with pytest.raises(ValueError, match="not enough values"):
+        test_what_one_default_cannot_say_of_two_groups_is_a_comment(
+            {"rod": {"solref": ["4h", 1.0]}}, tmp_path
+        )
 
 
 def _heavy(choice: Choice) -> bool:
