@@ -45,8 +45,8 @@ ampere = [current] = A
 coulomb = ampere * second = C
 tesla = kilogram / ampere / second**2 = T
 """
-# In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Within them products of five, as a
-# determinant has, stay doubles, which go from 1e-308 to 1e308.
+# In SI: an electron has 9e-31 kg, a molecule 1e-46 kg m². Products of five within
+# them are doubles, which go from 1e-308 to 1e308.
 SMALLEST, LARGEST = 1e-60, 1e30
 TURN = 2 * math.pi
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
@@ -132,7 +132,7 @@ def number(value: object, unit: str | None, known: Names) -> Amount | None:
     sign = -1.0 if value.startswith("-") else 1.0
     as_typed = found.text or f"{found.value:g}"
     if sign < 0.0:
-        as_typed = as_typed.removeprefix("-") if as_typed.startswith("-") else f"-{as_typed}"
+        as_typed = as_typed[1:] if as_typed.startswith("-") else f"-{as_typed}"
     text = f"{value} = {as_typed}"
     return turned(fitting(Amount(sign * found.value, found.dimension, text), unit), unit)
 

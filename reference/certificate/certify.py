@@ -2,7 +2,8 @@
 
 The laws are asked at states, and their bounds are those of rounding. Two motions are also as far
 apart as the motion is sensitive: what that may be is a share of what the case asks (`errors`), and
-one answer may be `LOOSER` times farther from the others than two integrators of one system are.
+one answer may be `LOOSER` times as far from the others as two integrators of one system are, and
+farther up to the next power of ten.
 """
 
 import math

@@ -143,7 +143,7 @@ class Multibody(Mode):
     def reactions_from(
         self, t: float, q: Array, v: Array, multipliers: Sequence[float]
     ) -> dict[str, float]:
-        """(2.60) The same of given multipliers (r,)."""
+        """(2.60) R_a = λ_b f_aᵇ of given multipliers (r,), by quantity."""
         numbers, of_floor = q.tolist(), ("normal", "tangent")
         found = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}
         _add(found, self._exerted(t, numbers, multipliers))
