@@ -43,13 +43,13 @@ def test_the_driver_cuts_at_the_events(monkeypatch: pytest.MonkeyPatch) -> None:
     """At F_s/(c u) = 6 s it slips; where it stops the reference has found it."""
     scene, start = begun("stribeck_drive")
     seen: list[float] = []
-    switch = driver._switch
+    change = driver.Rubbing._change
 
-    def noting(slide: Any) -> None:
-        seen.append(slide.data.time)
-        switch(slide)
+    def noting(self: driver.Rubbing, key: int) -> None:
+        seen.append(self.data.time)
+        change(self, key)
 
-    monkeypatch.setattr(driver, "_switch", noting)
+    monkeypatch.setattr(driver.Rubbing, "_change", noting)
     times = CASES["stribeck_drive"].times
     moved(TUNED["mujoco"], scene, start, times, STEP, realised="driver")
     slips, stops = follow(scenes.mechanism(CASES["stribeck_drive"]), times).events
@@ -61,7 +61,7 @@ def test_the_driver_cuts_at_the_events(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("falling friction held over the driver's steps")
 def test_mutant_force_held_over_the_driver_s_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stepping, "falling", lambda slides: [])
+    monkeypatch.setattr(stepping, "falling", lambda slide: [])
     assert far("mujoco", "driver") > 1e3 * DRAWN["mujoco", "driver"]
 
 

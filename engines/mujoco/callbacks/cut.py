@@ -37,24 +37,33 @@ class Cut(ABC, Generic[Key]):
             if not happens:
                 self._uncut()
                 break
-            found = {key: self._root(*what, left) for key, what in happens.items()}
+            found = {key: self._just_over(height, left) for key, height in happens.items()}
             first = min(found, key=found.__getitem__)
             self._again(found[first])
             self._change(first)
             left -= found[first]
         self.model.opt.timestep = step
 
-    def _root(self, begins: float, height: Height, longest: float) -> float:
-        """When the height is zero, from the state that is kept [s]; begins: what it was there."""
+    def _just_over(self, height: Height, longest: float) -> float:
+        """The shortest part [s] of those from the kept state that end with the height's new sign.
+
+        As the part begins the sign is the other; but what has only just begun is zero there, or by
+        rounding on either side of it, so the sign is not asked for.
+        """
         from scipy.optimize import brentq
 
         def after(length: float) -> float:
-            if not length:
-                return begins
             self._again(length)
             return height()
 
-        return float(brentq(after, 0.0, longest, xtol=_ROOT))
+        ends = after(longest)
+        if not ends:
+            return longest
+        root = brentq(lambda length: after(length) if length else -ends, 0.0, longest, xtol=_ROOT)
+        beyond = _ROOT
+        while root < longest and after(root) * ends <= 0.0:
+            root, beyond = min(root + beyond, longest), 2 * beyond
+        return root
 
     def _again(self, length: float) -> None:
         mujoco.mj_setState(self.model, self.data, self._kept, _STATE)
@@ -68,8 +77,8 @@ class Cut(ABC, Generic[Key]):
         """Store what has to be known before a part of the step is taken."""
 
     @abstractmethod
-    def _happens(self) -> Mapping[Key, tuple[float, Height]]:
-        """By key, each event in the part just taken: its height at the beginning, and now."""
+    def _happens(self) -> Mapping[Key, Height]:
+        """By key, the height of each event in the part just taken."""
 
     @abstractmethod
     def _change(self, key: Key) -> None:

@@ -1,109 +1,61 @@
-"""Dry friction by a driver: a step is repeated until its end falls on the event.
+"""Dry friction by a driver: a step is cut where something stops or breaks loose.
 
 So every step is smooth: what sticks is held, what slides is pushed by a constant force.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 
 import mujoco
-import numpy as np
 
-from ....cases.trajectory import Array
 from .contact_friction import Touch
+from .cut import Cut, Height
 from .friction import Slide
 from .signal import Control, bound
 from .smooth import alone
 
 
-def room(model: mujoco.MjModel) -> Array:
-    """For the state before a step, which is taken again where an event lies in it."""
-    return np.empty(mujoco.mj_stateSize(model, _STATE))
+class Rubbing(Cut[int]):
+    """One slide or contact with dry friction: held while it sticks, pushed while it slides."""
 
+    def __init__(self, slide: Slide | Touch) -> None:
+        super().__init__(slide.model, slide.data)
+        self._slide = slide
 
-def driven_step(slides: Sequence[Slide | Touch], step: float, kept: Array) -> None:
-    """One step, cut at every event in it; kept: its `room`."""
-    model, data = slides[0].model, slides[0].data
-    left = step
-    while left > _SHORTEST * step:
-        for slide in slides:
-            slide.engage()
-        taken, over = _until_event(model, data, slides, left, kept)
-        left -= taken
-        for slide in slides if over else ():
-            if _passed(slide) > 0:
-                _switch(slide)
-    model.opt.timestep = step
+    def _begin(self) -> None:
+        self._slide.engage()
 
+    def _happens(self) -> Mapping[int, Height]:
+        """The stop of a slide, or its start."""
+        return {self._slide.sense: self._passed} if self._passed() > 0.0 else {}
 
-_SHORTEST = 1e-12  # of a step: what is left is rounding
+    def _passed(self) -> float:
+        """Positive when the event is over: the speed has changed its sign, the force its bound."""
+        slide = self._slide
+        if slide.sense:
+            return -slide.sense * slide.speed
+        mujoco.mj_forward(self.model, self.data)
+        applied, _ = slide.applied()
+        static = slide.friction.static
+        return max(applied - static.forward, -static.backward - applied)
 
-
-def _passed(slide: Slide | Touch) -> float:
-    """Positive when the event is over: the speed has changed its sign, the force its bound."""
-    if slide.sense:
-        return -slide.sense * slide.speed
-    mujoco.mj_forward(slide.model, slide.data)
-    applied, _ = slide.applied()
-    static = slide.friction.static
-    return max(applied - static.forward, -static.backward - applied)
-
-
-def _until_event(
-    model: mujoco.MjModel,
-    data: mujoco.MjData,
-    slides: Sequence[Slide | Touch],
-    longest: float,
-    kept: Array,
-) -> tuple[float, bool]:
-    """Step to the first event, just over it, or the longest way [s]; and which of the two."""
-    mujoco.mj_getState(model, data, kept, _STATE)
-
-    def over(length: float) -> bool:
-        model.opt.timestep = length
-        mujoco.mj_step(model, data)
-        return any(_passed(slide) > 0 for slide in slides)
-
-    if not over(longest):
-        return longest, False
-    low, high = 0.0, longest
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        mujoco.mj_setState(model, data, kept, _STATE)
-        low, high = (low, middle) if over(middle) else (middle, high)
-    mujoco.mj_setState(model, data, kept, _STATE)
-    over(high)
-    return high, True
-
-
-_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-_HALVINGS = 45  # 3e-14 of a step
-
-
-def _switch(slide: Slide | Touch) -> None:
-    """Set the sense of a slide after an event: 0, or the way that the force points.
-
-    What has stopped rests, or goes on the way that the force points; what broke loose slides.
-    """
-    if slide.sense:
-        slide.halt()
-        mujoco.mj_forward(slide.model, slide.data)
-    applied, _ = slide.applied()
-    slide.sense = slide.starts(applied)
+    def _change(self, key: int) -> None:
+        """Set the sense after the event: 0, or the way that the force points."""
+        if key:
+            self._slide.halt()
+        mujoco.mj_forward(self.model, self.data)
+        applied, _ = self._slide.applied()
+        self._slide.sense = self._slide.starts(applied)
 
 
 # Friction that changes during a step, at every RK4 stage of the driver's: (2.90), and (2.87) of a
 # contact whose normal force changes.
 
 
-def falling(slides: Sequence[Slide | Touch]) -> list[Control]:
-    """A callback for each whose friction is not the same all step long."""
-    found = []
-    for slide in slides:
-        if isinstance(slide, Touch):
-            found.append(_pressed(slide))
-        elif not slide.steady:
-            found.append(_falling(slide))
-    return found
+def falling(slide: Slide | Touch) -> list[Control]:
+    """A callback, unless the friction is the same all step long."""
+    if isinstance(slide, Touch):
+        return [_pressed(slide)]
+    return [] if slide.steady else [_falling(slide)]
 
 
 def _falling(slide: Slide) -> Control:

@@ -30,7 +30,7 @@ class Feet(Cut[str]):
         self._sites = {name: model.site(name).id for name in stride.feet}
         ends = {end for foot in stride.feet.values() for end in (foot.at, foot.ahead_of) if end}
         self._places = {end: data.site_xpos[model.site(str(end)).id] for end in ends}
-        self._above: dict[str, float] = {}  # how high [m] the swinging feet were as a part began
+        self._above: list[str] = []  # the swinging feet that were above the floor as a part began
 
     def remember(self) -> Standing:
         """A copy of which feet stand, by which a reading restores this state."""
@@ -47,14 +47,13 @@ class Feet(Cut[str]):
     def _begin(self) -> None:
         mujoco.mj_kinematics(self.model, self.data)
         self.stride.look(self._place)
-        heights = {name: self._height(name) for name in self._swinging()}
-        self._above = {name: y for name, y in heights.items() if y > 0.0}
+        self._above = [name for name in self._swinging() if self._height(name) > 0.0]
 
-    def _happens(self) -> Mapping[str, tuple[float, Height]]:
+    def _happens(self) -> Mapping[str, Height]:
         """Feet that came down."""
         mujoco.mj_kinematics(self.model, self.data)  # a step leaves places as they were
         down = [name for name in self._above if self._height(name) <= 0.0]
-        return {name: (self._above[name], lambda name=name: self._after(name)) for name in down}
+        return {name: lambda name=name: self._after(name) for name in down}
 
     def _swinging(self) -> list[str]:
         """The feet that the floor meets, and that do not stand on it."""

@@ -1,7 +1,7 @@
 """Dry friction of a joint that MuJoCo's one number cannot say: which way it slides, and when.
 
 MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with just that force.
-`bounded` sets the force before every step (the law); `driven_step` cuts the steps at the events.
+`bounded` sets the force before every step (the law); `Rubbing` cuts the steps at the events.
 """
 
 from dataclasses import dataclass, field

@@ -55,12 +55,10 @@ class Catching(Cut[int]):
         else:
             super().step(step)
 
-    def _happens(self) -> Mapping[int, tuple[float, Height]]:
+    def _happens(self) -> Mapping[int, Height]:
         """Ropes that came to their length."""
         crossed = np.flatnonzero((self._over() > 0.0) & ~self.taut).tolist()
-        return {
-            k: (-NEAR * float(self._most[k]), lambda k=k: float(self._over()[k])) for k in crossed
-        }
+        return {k: lambda k=k: float(self._over()[k]) for k in crossed}
 
     def _uncut(self) -> None:
         """Mark as slack each rope whose ends are closer than its length."""

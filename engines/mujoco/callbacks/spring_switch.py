@@ -35,10 +35,10 @@ class Corners(Cut[int]):
         over = self._over()
         self.sides = np.where(np.abs(over) > _NEAR, np.sign(over), 0.0)
 
-    def _happens(self) -> Mapping[int, tuple[float, Height]]:
+    def _happens(self) -> Mapping[int, Height]:
         """Springs that came to the other side."""
         crossed = np.flatnonzero(self._over() * self.sides < 0.0).tolist()
-        return {k: (self.sides[k] * _NEAR, lambda k=k: float(self._over()[k])) for k in crossed}
+        return {k: lambda k=k: float(self._over()[k]) for k in crossed}
 
     def _change(self, key: int) -> None:
         self.sides[key] = -self.sides[key]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ....cases.scene import Scene
 from .contact_friction import Touch, one_touch, touches
 from .cut import Cut
-from .driver import bounded, driven_step, falling, room
+from .driver import Rubbing, bounded, falling
 from .edge import edges
 from .foot_contact import Feet, feet
 from .friction import Slide, slides, smooth_only
@@ -85,9 +85,8 @@ def by_law(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
 
 def at_friction(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
     """Steps that are cut at the events of dry friction."""
-    found = _rubbing(scene, model, data)
-    step = partial(driven_step, found, float(model.opt.timestep), room(model))
-    return Steps(model, data, found, _repeated(step), falling(found), alone=False)
+    (slide,) = _rubbing(scene, model, data)
+    return _cut(Rubbing(slide), noting=[slide], controls=falling(slide))
 
 
 def at_strikes(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
@@ -114,9 +113,13 @@ def _rubbing(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[S
     return [*slides(scene, model, data), *touches(scene, model, data)]
 
 
-def _cut(driver: Cut[Any], noting: Sequence[Feet | Catching]) -> Steps:
+def _cut(
+    driver: Cut[Any],
+    noting: Sequence[Slide | Touch | Feet | Catching],
+    controls: Sequence[Control] = (),
+) -> Steps:
     step = partial(driver.step, float(driver.model.opt.timestep))
-    return Steps(driver.model, driver.data, noting, _repeated(step), alone=False)
+    return Steps(driver.model, driver.data, noting, _repeated(step), [*controls], alone=False)
 
 
 def _repeated(step: Callable[[], None]) -> Callable[[int], None]:

@@ -45,7 +45,7 @@ def test_a_block_leaves_the_friction_cone(name: str) -> None:
 def test_mutant_normal_force_of_the_step_s_start(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stepping, "falling", lambda slides: [])
+    monkeypatch.setattr(stepping, "falling", lambda slide: [])
     assert off(name) > 1e-5
 
 
