@@ -215,7 +215,7 @@ def test_for_which_friction_a_soft_contact_is_told(told: Options, noted: bool) -
     """A ball of geoms sinks 0.07 mm with 0.5 and 0.37 mm with MuJoCo's own 1."""
     scene, start = begun("sinking_ball")
     text = MuJoCo("shipped").snippet(scene, start, told, STEP)
-    assert ("as its cone is a pyramid: it is for 0.5" in text) == noted
+    assert ("makes a contact softer: this is for friction 0.5" in text) == noted
 
 
 PYMUNK: list[tuple[str, Options]] = [

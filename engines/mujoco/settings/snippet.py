@@ -29,7 +29,7 @@ _POINTS = (
     "is for {points} of a body, and a box geom touches a plane at four"
 )
 _NEED = "; and only a pair has a solreffriction, without which the rest makes it hop"
-_PYRAMID = "a contact is the softer the larger its friction, as its cone is a pyramid: it is for "
+_PYRAMID = "with a pyramidal cone more friction makes a contact softer: this is for friction "
 _CONTACTS = ("pair.", "option.impratio")  # what begins so acts on contacts alone
 
 
