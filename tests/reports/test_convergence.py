@@ -214,7 +214,12 @@ def test_what_stays_beside_an_event_is_not_the_steps() -> None:
         "beside an event no step down to h = 0.001 s helps: 0.28 to 0.28 on every rung; elsewhere "
         "the error falls with order 2.0; one number for friction: pin"
     )
-    assert "one number" not in cause(replace(found, usable_step=1e-3), simplified="one number")
+    usable = replace(found, usable_step=1e-3)
+    assert "one number" not in cause(usable, simplified="one number")
+    unknown = cause(
+        usable, finer="it explodes", simplified="one number"
+    )  # then the model may be it
+    assert unknown.endswith("neither step nor model can be named; one number")
 
 
 @pytest.mark.mutant("where an engine is late by a step less some, that some is its model")

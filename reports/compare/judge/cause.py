@@ -11,7 +11,8 @@ def cause(found: Convergence, finer: str = "", simplified: str = "") -> str:
 
     simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
     """
-    left_out = "" if found.verdict in STEPS and not _beside(found) else simplified
+    step_alone = found.verdict in STEPS and not _beside(found) and not finer
+    left_out = "" if step_alone else simplified
     return "; ".join(part for part in (_told(found, finer), left_out) if part)
 
 
