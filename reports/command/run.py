@@ -1,12 +1,14 @@
 """`textmech run`."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from ...cases.mistake import Mistake
+from ...cases.mistake import CaseError, Mistake
 from ..show.console import tell
 from .done import DONE, written
 from .looking import left_out, looked_at
@@ -25,6 +27,8 @@ from .options import (
 )
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from ...cases.case import Case
 
 
@@ -89,7 +93,6 @@ def run(
     from ..output import motion_files as kept
     from ..output import write
     from ..show import cures, document, terminal
-    from ..system.cluster import executor
 
     full = not (cases or names or settings)
     if out is None and full:
@@ -105,7 +108,7 @@ def run(
         if keep is not None:
             unasked(keep, kept.names(found), overwrite=overwrite)
 
-    with executor(cluster) as working:
+    with _executor(cluster) as working:
         report = looked_at(
             cases,
             names,
@@ -150,3 +153,22 @@ def run(
     if mistakes:
         tell(left_out(mistakes))  # again: by now it has scrolled away
     raise click.exceptions.Exit(code)
+
+
+@contextmanager
+def _executor(address: str | None) -> "Iterator[Executor | None]":
+    """Yields the Dask scheduler's executor at the address; None without one. Raises CaseError."""
+    if address is None:
+        yield None
+        return
+    try:
+        dask = import_module("distributed")
+    except ImportError:
+        what = "needs Dask: pip install 'textmech[dask]'"
+        raise CaseError([Mistake("--cluster", 0, 0, "", what)]) from None
+    try:
+        client = dask.Client(address, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise CaseError([Mistake("--cluster", 0, 0, address, str(error))]) from None
+    with client:
+        yield client.get_executor()

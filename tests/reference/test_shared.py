@@ -11,6 +11,7 @@ from textmech.reference import certificate
 
 LIST = ROOT / "reference" / "SHARED.md"
 ROWS = Path(certificate.__file__ or "").parent
+ISLANDS = ROWS.parent / "islands.py"
 
 
 def entries() -> list[list[str]]:
@@ -40,7 +41,7 @@ def test_each_entry_has_its_code_its_rows_and_a_test(entry: str) -> None:
     _, code, rows, tests = ENTRIES[entry]
     assert named(code)
     assert [name for name in named(code) if not (ROOT / name).exists()] == []
-    words = "\n".join(file.read_text(encoding="utf-8") for file in ROWS.glob("*.py"))
+    words = "\n".join(file.read_text(encoding="utf-8") for file in (ISLANDS, *ROWS.glob("*.py")))
     assert [row for row in named(rows) if f'"{row}"' not in words] == []
     assert named(rows) or rows == "none"
     assert named(tests)
@@ -52,6 +53,6 @@ def test_each_entry_has_its_code_its_rows_and_a_test(entry: str) -> None:
 def test_every_row_that_reads_the_file_is_listed() -> None:
     """And nothing is taken for one that the certificate does not have."""
     rows = {row for cells in ENTRIES.values() for row in named(cells[2])}
-    files = ("island_check.py", "file_checks.py", "one_sided_checks.py")
-    words = "".join((ROWS / name).read_text(encoding="utf-8") for name in files)
+    files = (ISLANDS, ROWS / "file_checks.py", ROWS / "one_sided_checks.py")
+    words = "".join(file.read_text(encoding="utf-8") for file in files)
     assert rows == set(re.findall(r'Check\("([^"]+)"', words))

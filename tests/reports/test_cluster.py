@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from textmech.cases.mistake import CaseError
-from textmech.reports.system.cluster import executor
+from textmech.reports.command.run import _executor as executor
 
 
 class Client:

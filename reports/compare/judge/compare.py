@@ -30,7 +30,7 @@ from ..trial.ladder import Ladder
 from ..trial.run import Climbed, Samples
 from ..trial.simulate import Runs, simulate
 from ..trial.trial import Trial, judged_names
-from . import instants, metric, states
+from . import instants, metric
 from .cause import cause
 from .convergence import Convergence, study
 from .error_instant import moment
@@ -100,7 +100,25 @@ def answered(trial: Trial, found: Climbed) -> Outcome:
     if isinstance(found, str):
         return Outcome(rows + _diverged(trial, trial.motion, found))
     told = {name: trial.read(name, samples) for name, samples in found.items()}
-    return Outcome(rows + [states.judged(trial, name, told) for name in told], samples=told)
+    return Outcome(rows + [_of_states(trial, name, told) for name in told], samples=told)
+
+
+def _of_states(trial: Trial, name: str, samples: Samples) -> Comparison:
+    """The quantity's row, judged by its largest difference over all states: it knows no step."""
+    error = metric.error(samples[name], trial.wanted(name))
+    least, allowed = floor(trial, name, trial.case.duration), trial.allowed(name)
+    largest = round_to_floor(error.largest, least)
+    why = f"largest in state {error.at + 1}" if samples[name].size == trial.case.samples else ""
+    word, because = verdict(trial, name, error.largest, Convergence(UNSETTLED, {}, None), why)
+    return row(
+        trial,
+        name,
+        word,
+        error=largest,
+        rms=round_to_floor(error.rms, least),
+        ratio=None if allowed is None else largest / allowed,
+        because=because,
+    )
 
 
 def crashed(trial: Trial, because: str) -> Outcome:
