@@ -112,3 +112,46 @@ def test_nan_is_not_lost_in_whichever_mode(
     case = written_scenes.case(tmp_path, "braking")
     checks = certified(case, written(case.system or "", case.parameters))
     assert [check.name for check in checks if not check.holds] == [POWER]
+
+
+BARS = 60
+MULTIPLIERS = "accelerations by Lagrange with multipliers (2.60)"
+
+
+def chain() -> str:
+    """A chain of bars, drawn up to a straight line: it falls."""
+    ends = ["ground.O", *(f"b{i}.end" for i in range(BARS))]
+    bodies = ", ".join(f"b{i}: {{bar: {{mass: 1, length: 0.1}}}}" for i in range(BARS))
+    joints = ", ".join(f"j{i}: {{pin: [{ends[i]}, b{i}.start]}}" for i in range(BARS))
+    start = ", ".join(f"b{i}: {{angle: -30 deg}}" for i in range(BARS))
+    points = "points: {O: [0, 0]}"
+    return (
+        f"scene:\n  {points}\n  bodies: {{{bodies}}}\n  joints: {{{joints}}}\n"
+        f"initial: {{{start}}}\nallow: {{b3.angle: 1.0e-3}}\n"
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.mutant(
+    "rounding of a long chain's equations taken for a mistake",
+    "accelerations of a long chain off by 1e-9 of themselves",
+)
+def test_a_long_chain_is_certified_as_far_as_its_equations_tell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Measured 1.3e-12: half of a rounding times the condition of 1.2e4 that 60 bars have."""
+    case = scenes.typed(tmp_path, chain(), tail=scenes.tail(0.5, 3))
+
+    def broken() -> list[str]:
+        return [check.name for check in solve(case).checks if not check.holds]
+
+    assert broken() == []
+    with monkeypatch.context() as told:
+        told.setattr(laws, "_lost", lambda mode, t, q, v: 0.0)
+        assert broken() == [MULTIPLIERS]
+    sound = Multibody.accelerations
+    off = 1 + 1e-9
+    monkeypatch.setattr(
+        Multibody, "accelerations", lambda self, t, q, v: off * sound(self, t, q, v)
+    )
+    assert MULTIPLIERS in broken()
