@@ -8,7 +8,7 @@ import glob
 import os
 import sys
 from argparse import ArgumentTypeError
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import asdict, replace
 from fnmatch import fnmatch
@@ -142,19 +142,29 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     config, source = session.config, pytest.Config.ArgsSource
     if config.args_source is source.ARGS or hasattr(config, "workerinput"):
         return
+    root, by_paths = config.rootpath, config.args_source is source.TESTPATHS
     walked = [(config.invocation_params.dir / argument).resolve() for argument in config.args]
     for pattern in config.getini("textmech_cases"):
         found = [Path(file) for file in glob.glob(_from_root(pattern, config), recursive=True)]
-        files = [file.resolve() for file in found if file.suffix in SUFFIXES]
+        files = [file for file in found if file.suffix in SUFFIXES]
+        stray = next(_outside(files, walked if by_paths else [root]), None)
         if not files:
             what = f"no case file fits {pattern!r}; a pattern with a space stands in quotes"
-            raise pytest.UsageError(f"textmech_cases: {what}")
-        beside = [file for file in files if not any(file.is_relative_to(top) for top in walked)]
-        if beside and config.args_source is source.TESTPATHS:
-            what = (
-                f"{beside[0]} is below none of `testpaths`, where alone pytest looks: add it there"
-            )
-            raise pytest.UsageError(f"textmech_cases: {what}")
+        elif stray and by_paths:
+            what = f"{stray} is below none of `testpaths`, where alone pytest looks: add it there"
+        elif stray:
+            what = f"{stray} is not below {root}, where alone pytest looks: name it to pytest"
+        else:
+            continue
+        raise pytest.UsageError(f"textmech_cases: {what}")
+
+
+def _outside(files: Sequence[Path], tops: Sequence[Path]) -> Iterator[Path]:
+    """Yields the files that are below none of the folders, neither themselves nor by a link."""
+    for file in files:
+        ways = Path(os.path.normpath(file)), file.resolve()
+        if not any(way.is_relative_to(top) for way in ways for top in tops):
+            yield ways[0]
 
 
 def _from_root(pattern: str, config: pytest.Config) -> str:

@@ -56,12 +56,17 @@ def test_configured_files_are_compared(project: pytest.Pytester) -> None:
             "textmech_cases = sw*.yaml\ntestpaths = tests",
             "*swing.yaml is below none of `testpaths`*",
         ),
+        (
+            "textmech_cases = ../mine.yaml",
+            "*mine.yaml is not below *, where alone pytest looks: name it to pytest",
+        ),
     ],
 )
 def test_files_that_the_ini_file_names_and_nothing_finds_are_no_pass(
     project: pytest.Pytester, ini: str, what: str
 ) -> None:
     project.makeini(f"[pytest]\n{ini}")
+    (project.path.parent / "mine.yaml").write_text(SWING, encoding="utf-8")
     project.mkdir("tests").joinpath("test_own.py").write_text("def test_own(): pass")
     done = inner(project)
     assert done.ret == pytest.ExitCode.USAGE_ERROR
