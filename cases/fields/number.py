@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -11,7 +11,8 @@ from ..mistake import nearest
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LITERAL = r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
-_ARITHMETIC = re.compile(rf"({_LITERAL}|pi)\s*([*/])\s*({_LITERAL}|pi)")
+_OF_TWO = re.compile(rf"({_LITERAL}|-?[A-Za-z_]\w*)\s*([*/+-])\s*({_LITERAL}|-?[A-Za-z_]\w*)")
+_FORMULA = re.compile(r"[A-Za-z0-9_.()^*/+ -]*[(^*/+][A-Za-z0-9_.()^*/+ -]*")
 _TERM = r"(?:[A-Za-zµμ°]{1,12}(?:(?:\^|\*\*)-?[1-4]|[²³⁴])?)"
 _QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}})")
 
@@ -83,6 +84,9 @@ def shown(value: object) -> str:
     return "a map" if isinstance(value, dict) else "a list"
 
 
+NONE = Names()
+
+
 def names(parameters: object) -> Names:
     """The amounts of a file's parameters; their mistakes are found by the grammar."""
     amounts: dict[str, Amount | None] = {}
@@ -94,8 +98,8 @@ def names(parameters: object) -> Names:
     return Names(amounts)
 
 
-def amount(value: object) -> Amount:
-    """A literal or a quantity with its unit, in SI."""
+def amount(value: object, known: Names = NONE) -> Amount:
+    """A literal or a quantity with its unit, in SI; known: what else a formula may name."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return Amount(_sized(float(value), value))
     short = isinstance(value, str) and len(value) <= 60  # so that no search is long
@@ -103,25 +107,46 @@ def amount(value: object) -> Amount:
         return _measured(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
-    if short and (match := _ARITHMETIC.fullmatch(str(value).strip())):
-        raise NumberMistake(f"{value!r} is not computed: {_computed(*match.groups())}")
+    text = str(value).strip()
+    if short and _FORMULA.fullmatch(text) and {"pi", *known.amounts}.issuperset(_words(text)):
+        raise NumberMistake(f"{value!r} is not computed: write {_computed(text, known)}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
 
 
-def _computed(a: str, sign: str, b: str) -> str:
-    """Advice to write a product or quotient as its value, in words for a person."""
-    x, y = (math.pi if word == "pi" else float(word) for word in (a, b))
-    if sign == "/" and not y:
-        return "write the number"
-    found = x / y if sign == "/" else x * y
-    angle = f", or {math.degrees(found):g} deg" if "pi" in (a, b) else ""
-    return f"write {found:.10g}{angle}"
+def named_in(text: str, parameters: Collection[str]) -> set[str]:
+    """The parameters that a text names: as a number, as `-name`, or in a formula, which is none."""
+    whole = not _FORMULA.fullmatch(text) or _QUANTITY.fullmatch(text)
+    return set(parameters).intersection([text.removeprefix("-")] if whole else _words(text))
+
+
+def _words(formula: str) -> list[str]:
+    parts = re.findall(rf"{_NAME.pattern}|{_LITERAL}", formula)
+    return [part for part in parts if _NAME.fullmatch(part)]
+
+
+def _computed(formula: str, known: Names) -> str:
+    """What to write instead: of two numbers what they make, for a person."""
+    of_two = _OF_TWO.fullmatch(formula)
+    x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
+    if of_two is None or x is None or y is None or (of_two[2] == "/" and not y):
+        return "the number"
+    found = {"*": x * y, "/": x / (y or 1.0), "+": x + y, "-": x - y}[of_two[2]]
+    angle = f", or {math.degrees(found):g} deg" if "pi" in of_two.group(1, 3) else ""
+    return f"{found:.10g}{angle}"
+
+
+def _operand(word: str, known: Names) -> float | None:
+    """The value of a number, a parameter or pi; None of a parameter that is itself mistaken."""
+    if not (words := _words(word)):
+        return float(word)
+    found = Amount(math.pi) if words == ["pi"] else known.amounts[words[0]]
+    return None if found is None else -found.value if word.startswith("-") else found.value
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
     """Any number of the language, in SI; None where it names a mistaken parameter."""
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
-        return turned(fitting(amount(value), unit), unit)
+        return turned(fitting(amount(value, known), unit), unit)
     if not known.amounts:
         raise NumberMistake(f"should be a number, is {shown(value)}")
     if name not in known.amounts:

@@ -11,7 +11,7 @@ import pytest
 from given.otherwise import otherwise
 
 from textmech.cases.fields import number
-from textmech.cases.fields.number import Names, NumberMistake, amount
+from textmech.cases.fields.number import Amount, Names, NumberMistake, amount
 
 ROUNDING = 1e-15  # a few products in a double each
 LINES = [line.partition("=") for line in number._UNITS.strip().splitlines()]
@@ -111,6 +111,7 @@ def _alike(word: str) -> bool:
     return True
 
 
+KNOWN = Names({"m": Amount(1.5), "l1": Amount(0.2), "zero": Amount(0.0), "wrong": None})
 HERTZ = "; Hz may count turns or radians: write rpm or rad/s"
 
 
@@ -126,6 +127,16 @@ HERTZ = "; Hz may count turns or radians: write rpm or rad/s"
         ("pi/6", "rad", "'pi/6' is not computed: write 0.5235987756, or 30 deg"),
         ("2*0.5", "m", "'2*0.5' is not computed: write 1"),
         ("1/0", "m", "'1/0' is not computed: write the number"),
+        ("2*m", "kg", "'2*m' is not computed: write 3"),
+        ("-m / 2", "kg", "'-m / 2' is not computed: write -0.75"),
+        ("m+1e-3", "kg", "'m+1e-3' is not computed: write 1.501"),
+        ("2*l1", "m", "'2*l1' is not computed: write 0.4"),
+        ("m/zero", "kg", "'m/zero' is not computed: write the number"),
+        ("2*wrong", "kg", "'2*wrong' is not computed: write the number"),
+        ("m*m/2", "kg", "'m*m/2' is not computed: write the number"),
+        ("2*(m + 1)", "kg", "'2*(m + 1)' is not computed: write the number"),
+        ("2*other", "kg", "should be a number, is text '2*other'"),
+        ("m.x", "kg", "should be a number, is text 'm.x'"),
         ("2 Hz", "rad/s", f"is '2 Hz', but rad/s was expected{HERTZ}"),
         ("3 N m/Hz", "N m s/rad", f"is '3 N m/Hz', but N m s/rad was expected{HERTZ}"),
         ("2 Hz", "kg", "is '2 Hz', but kg was expected"),
@@ -135,7 +146,7 @@ HERTZ = "; Hz may count turns or radians: write rpm or rad/s"
 def test_what_to_write_is_said(text: str, unit: str, said: str) -> None:
     value: object = float(text) if text.lstrip("-").isdigit() else text
     with pytest.raises(NumberMistake) as caught:
-        number.number(value, unit, Names())
+        number.number(value, unit, KNOWN)
     assert str(caught.value) == said
 
 

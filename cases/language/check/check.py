@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from math import ceil, inf, isfinite, isnan
 from typing import Any
 
+from ...fields.number import named_in
 from ...mistake import Path, nearest
 from ...scene import Scene
 from ...scene.forces.drag import Drag
@@ -55,9 +56,10 @@ def _parameters(
         if name not in given:
             yield ("drops_out", i), f"unknown parameter {name!r}{nearest(name, given)}"
     if file.system is None:
-        used = _words({k: v for k, v in data.items() if k not in _NO_USE})
+        texts = _texts({k: v for k, v in data.items() if k not in _NO_USE})
+        used = set().union(*(named_in(text, file.parameters) for text in texts))
         for name in file.parameters:
-            if name not in used and f"-{name}" not in used:
+            if name not in used:
                 yield ("parameters", name), "no one uses this parameter"
     elif systems is not None and file.system not in systems:
         yield ("system",), f"unknown system {file.system!r}{nearest(file.system, systems)}"
@@ -73,12 +75,12 @@ def _parameters(
                 yield ("parameters", name), what
 
 
-def _words(data: object) -> set[str]:
+def _texts(data: object) -> set[str]:
     """Every text that stands as a value."""
     if isinstance(data, dict):
-        return set().union(*map(_words, data.values()))
+        return set().union(*map(_texts, data.values()))
     if isinstance(data, tuple):
-        return set().union(*map(_words, data))
+        return set().union(*map(_texts, data))
     return {data} if isinstance(data, str) else set()
 
 
