@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from .number import Amount, Names, NumberMistake, amount, number, per_second, shown
+from .number import MISTAKEN, Amount, Names, NumberMistake, amount, number, per_second, shown
 from .words import wrong
 
 LITERAL_OR_UNIT = "a number in SI, or a quantity with its unit as text (`30 deg`)"
@@ -33,7 +33,7 @@ class Plain:
             try:
                 return self.check(value, info.context or Names())
             except NumberMistake as mistake:
-                raise wrong(str(mistake)) from None
+                raise wrong(str(mistake), number=True) from None
 
         return core_schema.with_info_plain_validator_function(check)
 
@@ -115,6 +115,8 @@ class Coefficients(Plain):
     unit: str | None
 
     def check(self, value: object, known: Names) -> tuple[Any, ...]:
+        if value is MISTAKEN:
+            return (Amount(float("nan")) if self.unit is None else float("nan"),)
         if not isinstance(value, tuple | list):
             raise NumberMistake(f"should be a list [c0, c1, …], is {shown(value)}")
         if not value:

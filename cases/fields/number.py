@@ -85,6 +85,8 @@ def shown(value: object) -> str:
 
 
 NONE = Names()
+MISTAKEN = object()
+"""What stands in a file's data for a number that is wrong, and has been said to be."""
 
 
 def names(parameters: object) -> Names:
@@ -144,7 +146,9 @@ def _operand(word: str, known: Names) -> float | None:
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
-    """Any number of the language, in SI; None where it names a mistaken parameter."""
+    """Any number of the language, in SI; None where it is mistaken, or names what is."""
+    if value is MISTAKEN:
+        return None
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
         return turned(fitting(amount(value, known), unit), unit)
     if not known.amounts:

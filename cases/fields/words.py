@@ -19,9 +19,9 @@ _SHAPES = {
 }
 
 
-def wrong(what: str) -> PydanticCustomError:
-    """A mistake already in plain words."""
-    return PydanticCustomError("plain", "{what}", {"what": what})
+def wrong(what: str, *, number: bool = False) -> PydanticCustomError:
+    """A mistake already in plain words; number: that of one number, without which all else is."""
+    return PydanticCustomError("plain", "{what}", {"what": what, "number": number})
 
 
 def in_words(
@@ -40,7 +40,11 @@ def in_words(
         if e["type"] == "missing" and isinstance(e["loc"][-1], int):
             lengths[e["loc"][:-1]] = max(lengths.get(e["loc"][:-1], 0), e["loc"][-1] + 1)
     details = [
-        InitErrorDetails(type=wrong(what), loc=loc, input=e["input"])
+        InitErrorDetails(
+            type=wrong(what, number=e.get("ctx", {}).get("number", False)),
+            loc=loc,
+            input=e["input"],
+        )
         for e in errors
         if not (e["type"] == "missing" and e["loc"][-1] in misspelt)
         for loc, what in _said(e, keys, absent, lengths, elsewhere)

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ..fields.number import names
+from ..fields.number import MISTAKEN, names
 from ..mistake import Path
 from .grammar.file import File, SpatialFile
 
@@ -87,6 +87,11 @@ def parse(data: Mapping[str, Any]) -> Parsed:
             first = not broken
             for found in error.errors(include_url=False):
                 path = _path(found["loc"])
+                if first and found.get("ctx", {}).get("number") and path[0] != "parameters":
+                    rest, there = _without_number(rest, path)
+                    if there:
+                        findings.append((path, found["msg"]))
+                        continue
                 cut = path[: _DEPTH.get(str(path[0]), 1)] if first else path[:1]
                 broken.add(cut)
                 _remove(rest, cut)
@@ -111,6 +116,22 @@ def _path(loc: tuple[str | int, ...]) -> Path:
     if loc[0] == "step":
         loc = (loc[0], *loc[2:])
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc
+
+
+def _without_number(data: Any, path: Path) -> tuple[Any, bool]:
+    """The data with nothing known of one number, and whether there is one to be replaced."""
+    if not path:
+        return MISTAKEN, data is not MISTAKEN and not isinstance(data, dict | tuple | list)
+    key, *others = path
+    try:
+        changed, there = _without_number(data[key], tuple(others))
+    except (TypeError, LookupError):
+        return data, False
+    if not there:
+        return data, False
+    if isinstance(data, dict):
+        return {**data, key: changed}, True
+    return (*data[:key], changed, *data[key + 1 :]), True
 
 
 def _copy(data: Any) -> Any:

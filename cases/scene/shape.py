@@ -34,7 +34,8 @@ class Count(Plain):
             by_name = f" ({value})" if isinstance(value, str) else ""
             raise wrong(
                 f"should be a whole number from {self.least} to {self.most}, is "
-                f"{found.value:.15g}{by_name}"
+                f"{found.value:.15g}{by_name}",
+                number=True,
             )
         return round(found.value)
 

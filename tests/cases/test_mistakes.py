@@ -84,6 +84,64 @@ def test_each(tmp_path: Path, old: str, new: str, place: str, field: str, what: 
     ]
 
 
+DISK, SPOKES = "{disk: {mass: 2.0, radius: 0.25}}", "length: 0.3, mass: 2, inertia: 0.1}}"
+BESIDE = [
+    (DISK, "{spokes: {number: phi0, " + SPOKES, "a plain number was", "only a disk rolls"),
+    (DISK, "{spokes: {number: 2, " + SPOKES, "a whole number from 3", "only a disk rolls"),
+    (DISK, "{spokes: {number: m, " + SPOKES, "a whole number from 3", "only a disk rolls"),
+    ("length: l}, points: {P:", "length: x}, points: {Q:", "unknown parameter 'x'", "'bar.P.x'"),
+    (
+        "coil: {spring: [bar.end, wheel.center], stiffness: 40.0",
+        "coil: {spring: [bar.ende, wheel.center], stiffness: -1",
+        "must be positive, is -1",
+        "'ende'",
+    ),
+    (
+        "[wheel, ground.floor], friction: 0.5",
+        "[wheel, ground.wall], friction: -1",
+        "must not be negative, is -1",
+        "'ground.wall'",
+    ),
+    ("{mujoco: 1.0e-3, py", "{mujoco: -1, bullet: 1.0e-3, py", "must be positive", "'bullet'"),
+    ("mujoco: {bar.angle: 1.0e-6}", "mujoco: {bar.angel: -1}", "must be positive", "'bar.angel'"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "number", "other"), BESIDE)
+def test_a_wrong_number_hides_no_other_mistake(
+    tmp_path: Path, old: str, new: str, number: str, other: str
+) -> None:
+    """It is as a number of which nothing is known."""
+    assert SOUND.count(old) == 1
+    said = [mistake.what for mistake in mistakes(tmp_path, SOUND.replace(old, new)).mistakes]
+    assert any(number in what for what in said)
+    assert any(other in what for what in said)
+
+
+def test_a_wrong_number_and_a_mistaken_body_are_told_together(tmp_path: Path) -> None:
+    text = SOUND.replace("{bar: {mass: m, length: l}", "{bar: {mass: m}")
+    text = text.replace("damping: 0.1", "damping: .nan")
+    assert [(m.where, m.what) for m in mistakes(tmp_path, text).mistakes] == [
+        ("scene.bodies.bar.bar.length", "missing key 'length'"),
+        ("scene.forces.oil.damping", "must be finite, is nan"),
+    ]
+
+
+def test_a_wrong_drag_of_a_mistaken_body_is_told(tmp_path: Path) -> None:
+    text = """\
+title: A sled that slows down
+scene:
+  bodies: {sled: {bar: {mass: 1}}}
+  forces: {snow: {drag: sled.center, coefficient: .nan, exponent: 2}}
+initial: {sled: {x: 0, y: 0, angle: 0, vx: 1}}
+duration: 1
+samples: 3
+allow: {sled.x: 1}
+"""
+    said = {mistake.where for mistake in mistakes(tmp_path, text).mistakes}
+    assert {"scene.bodies.sled.bar.length", "scene.forces.snow.coefficient"} <= said
+
+
 def test_all_at_once(tmp_path: Path) -> None:
     """A broken part hides no other, and drags nothing along: bar's own quantities are not named."""
     text = SOUND.replace("bar: {bar: {mass: m", "bar: {bar: {mass: 0 kg")

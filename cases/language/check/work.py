@@ -102,7 +102,7 @@ def _rates(file: File, scene: Scene) -> Iterator[tuple[float, Path]]:
 
     for name, force in scene.forces.items():
         swings, decays = force.pace(mobility)
-        if decays:
+        if decays > 0.0:  # a spoiled number is nan
             decays *= _quickened(file, scene, force, mobility)
         yield max(swings, decays / DAMPED), ("scene", "forces", name)
     for name, point in scene.points.items():
