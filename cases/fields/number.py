@@ -127,7 +127,7 @@ def _words(formula: str) -> list[str]:
 
 
 def _computed(formula: str, known: Names) -> str:
-    """What to write instead: of two numbers what they make, for a person."""
+    """The words for what to write instead: of two numbers what they make."""
     of_two = _OF_TWO.fullmatch(formula)
     x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
     if of_two is None or x is None or y is None or (of_two[2] == "/" and not y):

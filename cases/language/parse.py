@@ -118,13 +118,13 @@ def _path(loc: tuple[str | int, ...]) -> Path:
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc
 
 
-def _without_number(data: Any, path: Path) -> tuple[Any, bool]:
+def _without_number(data: Any, path: tuple[Any, ...]) -> tuple[Any, bool]:
     """The data with nothing known of one number, and whether there is one to be replaced."""
     if not path:
         return MISTAKEN, data is not MISTAKEN and not isinstance(data, dict | tuple | list)
     key, *others = path
     try:
-        changed, there = _without_number(data[key], tuple(others))
+        changed, there = _without_number(data[key], (*others,))
     except (TypeError, LookupError):
         return data, False
     if not there:

@@ -113,7 +113,7 @@ def one_sided_checks(
     rubbed = [worst(one.off(seen, size)) / one.largest for one in rubbing]
     for change in changes if rubbing else ():
         before = _before(scene, answer, change)
-        rubbed += [one.at(before, change, size) / one.largest for one in rubbing]
+        rubbed += [one.at(before, change, size) for one in rubbing]
     if rubbed:
         yield Check("friction is the file's", worst(rubbed), FORCES)
     if free := [*_told(case.scene, answer, motion)]:
@@ -291,17 +291,18 @@ class _Rubbing:
     def at(self, before: Motion, change: Change, size: Size) -> float:
         """Returns that where a mode ends, or how far what breaks loose there was from its bound.
 
-        Nothing at a corner of a law: forces are told there as they are behind it.
+        Of the largest force, which may be this one: it may have stuck between two samples. Nothing
+        at a corner of a law: forces are told there as they are behind it.
         """
         if change.guard is None:
             return 0.0
         if any(not {*_forces(one)} <= before.trajectory.reactions.keys() for one in self.parts):
             return 0.0
         off = worst(self.off(before, size))
+        _, force, low, high, _ = self.bounds(before)
         if change.name in {f"{one.name} slips" for one in self.parts}:
-            _, force, low, high, _ = self.bounds(before)
             off = max(off, float(np.minimum(force - low, high - force)[0]))
-        return off
+        return off / max(self.largest, worst(np.abs(force)))
 
 
 def _forces(one: Contact | Pair | Joint) -> list[str]:

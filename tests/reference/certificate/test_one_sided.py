@@ -154,16 +154,32 @@ scene:
 initial: {d: {x: 0, y: 0.2, angle: 0, omega: 90, vx: 4}}
 allow: {d.x: 1.0e-3}
 """
+CATCHES = """\
+scene:
+  gravity: none
+  points: {O: [0, 0], P: [3, 0]}
+  bodies: {b: {particle: {mass: 1.0}}}
+  joints: {r: {slide: [ground.O, b.center], along: [1, 0], dry_friction: {static: 3, kinetic: 0}}}
+  forces:
+    k: {spring: [ground.P, b.center], stiffness: 40.0, rest_length: 2.5}
+    p: {push: b.center, sine: {amplitude: [6, 0], angular_frequency: 9}}
+initial: {b: {x: 0.5, vx: 0.5}}
+allow: {b.x: 1.0e-3}
+"""
 SCENES = {
     "a disk that hops": HOPS, "a band": BAND, "a disk that slides": SLIDES,
     "a pulse that lifts": LIFTED, "a stop that nearly touches": NEARLY,
     "stops between two bodies": TWO_STOPS, "a rope": ROPE,
     "a disk that bounces": BOUNCE, "a disk on a face": ON_A_FACE, "a blow on a face": STRIKES,
     "what breaks loose": LOOSE, "a rail that rubs": RAIL,
+    "a rail that only catches, between two samples": CATCHES,
 }  # fmt: skip
 
 
-ENDS = {"a stop that nearly touches": 0.375}  # s: then its stop is struck by what its foot does
+ENDS = {
+    "a stop that nearly touches": 0.375,  # s: then its stop is struck by what its foot does
+    "a rail that only catches, between two samples": 6.0,
+}
 
 
 def checks(folder: Path, name: str) -> dict[str, Any]:
