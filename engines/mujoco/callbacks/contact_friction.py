@@ -10,6 +10,7 @@ import mujoco
 
 from ....cases.scene import Bounds, Contact, DryFriction, Scene
 from ....cases.trajectory import Array
+from ...engine import Diverged
 from ...law import braking, dry_friction
 from ..model.contact import alone
 from ..model.tree import dry_joints
@@ -34,6 +35,7 @@ class Touch:
     before: float | None = None
     last: float = 0.0
     steady: bool = False  # its bounds change with the normal force, so it is asked at every step
+    touches: bool = True  # as a scene starts that has these laws
 
     def __post_init__(self) -> None:
         body = self.contact.body
@@ -49,7 +51,7 @@ class Touch:
     def friction(self) -> DryFriction:
         static = self.contact.static * self.normal
         middle = self.normal + (self.normal - self.normal_before) / 2  # of the step that it brakes
-        kinetic = self.contact.kinetic * middle
+        kinetic = self.contact.kinetic * max(0.0, middle)  # nothing where it lifts off
         return DryFriction(Bounds(static, static), Bounds(kinetic, kinetic))
 
     @property
@@ -83,6 +85,18 @@ class Touch:
         if self.turn is not None:
             self.data.qvel[self.turn] = -float(self.data.qvel[self.x]) / self.radius
         self._set(2 * self.contact.static, 0.0)
+
+    def look(self) -> None:
+        """Whether it touches, in the state that MuJoCo was last asked for.
+
+        Raises Diverged where it comes down again: the normal force of a blow is anything.
+        """
+        before, self.touches = self.touches, self.data.ncon > 0
+        if self.touches and not before:
+            raise Diverged(
+                f"{self.contact.name} comes down again at {self.data.time:.3g} s, and no law of "
+                "dry friction follows a blow"
+            )
 
     def carried(self, normal: float) -> None:
         """The normal force [N] is this now, with which its friction goes."""

@@ -22,6 +22,8 @@ class Rubbing(Cut[int]):
         self._slide = slide
 
     def _begin(self) -> None:
+        if isinstance(self._slide, Touch):
+            self._slide.look()
         self._slide.engage()
 
     def _happens(self) -> Mapping[int, Height]:
@@ -72,7 +74,7 @@ def _falling(slide: Slide) -> Control:
 
 
 def _pressed(touch: Touch) -> Control:
-    """By the normal force, which carries all else that acts on a body that only touches."""
+    """By the normal force: it carries all else that acts on a body, as long as that touches."""
     up = int(touch.model.joint(f"{touch.contact.body}.y").dofadr[0])
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:
@@ -80,7 +82,7 @@ def _pressed(touch: Touch) -> Control:
 
         def control() -> None:
             if touch.sense:
-                touch.carried(-acting())
+                touch.carried(max(0.0, -acting()) if data.ncon else 0.0)
                 touch.engage()
 
         return control
@@ -106,6 +108,8 @@ def bounded(slide: Slide | Touch) -> None:
         slide.before = None
         return
     mujoco.mj_forward(slide.model, slide.data)
+    if isinstance(slide, Touch):
+        slide.look()
     now, mass = slide.applied()
     soon = now if slide.before is None else 2 * now - slide.before  # at the end of the step
     slide.before = now

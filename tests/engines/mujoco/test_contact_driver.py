@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -14,8 +15,9 @@ from given.engine_scenes import BLOCK, RADIUS, WHEEL, G, incline, launched, thro
 from given.planning import CASES, TUNED, begun, moved, planned, ways
 from given.scenes import solved
 
-from textmech.cases.scene import Bounds, DryFriction
+from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Signal
 from textmech.cases.trajectory import OMEGA, VX, X
+from textmech.engines.engine import Diverged, Realised
 from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.callbacks import stepping
 from textmech.engines.mujoco.callbacks.contact_friction import Touch, touches
@@ -91,6 +93,37 @@ def test_a_disk_slides_then_rolls() -> None:
     rows = run.states["wheel"]
     assert np.abs(rows[:, X] - sliding_then_rolling(times, v, omega, mu)).max() < ROLLED
     assert abs(rows[-1, VX] + RADIUS * rows[-1, OMEGA]) < ROLLED
+
+
+PULLED = (2.0, 15.0)  # N on a kilogram: up for 0.2 s, which is more than it weighs
+
+
+def lifted(way: Realised, until: float) -> float:
+    """m/s that a block is off which a pull has lifted off, sliding, from 0.1 s on: nothing rubs."""
+    pull = Signal("pulse", PULLED, times=(0.1, 0.3))
+    floor = incline(replace(BLOCK, mass=1.0), touching("block", 0.3, static=0.6))
+    scene = replace(floor, forces={"pull": Push("pull", Anchor("block", "center"), pull)})
+    times = np.linspace(0.0, until, round(until / 0.05) + 1)
+    run = moved(MUJOCO, scene, thrown(0.5), times, STEP, realised=way)
+    rubbed, pulled = np.minimum(times, 0.1), np.clip(times - 0.1, 0.0, 0.2)
+    exact = 0.5 - 0.3 * G * rubbed + PULLED[0] * pulled
+    return float(np.abs(run.states["block"][:, VX] - exact).max())
+
+
+# m/s: a step of friction where the pull begins, 0.3 g h, less what is left of the floor's spring.
+LIFTS = {"law": 3e-3, "driver": 3e-3}
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("{way} of a contact that rubs where nothing touches")
+@pytest.mark.parametrize("way", LIFTS)
+def test_what_is_lifted_off_is_not_rubbed(way: Realised, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert lifted(way, 0.5) < LIFTS[way]
+    with pytest.raises(Diverged, match="comes down again"):
+        lifted(way, 1.0)
+    bounds = Bounds(0.3 * G, 0.3 * G)
+    monkeypatch.setattr(Touch, "friction", property(lambda self: DryFriction(bounds, bounds)))
+    assert lifted(way, 0.5) > 0.1
 
 
 @pytest.mark.parametrize("slip", [0.37, -0.37])
