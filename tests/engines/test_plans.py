@@ -32,7 +32,7 @@ from given.planning import (
 )
 
 from textmech import engines
-from textmech.cases.scene import Bounds, Scene
+from textmech.cases.scene import Anchor, Bounds, Push, Scene, Signal
 from textmech.engines.engine import Engine, Plan, Refusal, Start
 from textmech.reports.compare.trial.trial import NOTHING_OF_ITS_OWN
 from textmech.reports.compare.trial.trial import ways as tried
@@ -115,6 +115,8 @@ def test_a_refusal_stands_where_nothing_is_native() -> None:
 
 
 DRY = guided(GROWING), RESTS
+PULSE = Push("pull", Anchor("block", "center"), Signal("pulse", (8.0, 0.0), times=(0.2, 0.5)))
+PULSED = guided(PULSE), RESTS
 FLOOR = incline(WHEEL, touching("wheel", 0.3)), launched(0.0)
 TWO = incline(BLOCK, touching("block", 0.3, static=0.4), slope=0.1), RESTS
 OILED, FREE = begun("spring_mass_damper.critical"), begun("spring_mass_damper.free")
@@ -135,6 +137,13 @@ WAYS: dict[str, tuple[tuple[Scene, Start], dict[str, dict[str, tuple[int, int]]]
         {
             "mujoco": {"native": (1, 2), "law": (1, 2), "driver": (4, 5)},
             "pymunk": {"native": (1, 2), "law": (2, 3)},
+        },
+    ),
+    "dry friction under a pulse": (
+        PULSED,
+        {
+            "mujoco": {"native": (1, 2), "law": (1, 2), "driver": (1, 2)},
+            "pymunk": {"native": (1, 2), "law": (1, 2)},
         },
     ),
     "a floor": (FLOOR, {"mujoco": {"native": (1, 2)}, "pymunk": {"native": (1, 2)}}),

@@ -157,13 +157,13 @@ def plan(
     """One way's plan. Nothing is withheld: a joint's force and moment can be read, a contact's too.
 
     Exponents: Euler, contacts, corners of dry friction and of springs 1, 2; RK4 4, 5, with corners
-    of other laws and the mean of a force that jumps 2, 3; soft constraints that follow the step
-    2, 3.
+    of other laws and the mean of a force that jumps 2, 3, which a driver of dry friction cuts where
+    it passes a bound, and not the force: 1, 2; soft constraints that follow the step 2, 3.
     """
     integrator = {choice.name: choice.value for choice in numbers(NOMINAL)}["option.integrator"]
     dry = bool(dry_joints(scene))
     jumps = any(law.corners for law in scene.laws())
-    first = integrator != "RK4" or bool(met(scene)) or (dry and realised != "driver")
+    first = integrator != "RK4" or bool(met(scene)) or (dry and (realised != "driver" or jumps))
     first |= any(scene.one_sided()) and realised != "driver"
     first |= any(scene.limits()) and not (realised == "driver" and catches(scene))
     corners = any(force.corner for force in scene.forces.values())

@@ -80,18 +80,19 @@ def _second(scene: Scene, realised: Realised, numbers: Numbers) -> bool:
 def _spoilt(scene: Scene, realised: Realised) -> bool:
     """Where pymunk spoils the midpoint protocol's second order.
 
-    An impact, and a part that turns back without a rest, take whole steps: measured, 1. Of a step
-    in which a spring begins or ends to act, what is left is anything up to its second order.
+    An impact, and a part that turns back without a rest, take whole steps: measured, 1. So does a
+    force that jumps where something rubs: its mean breaks loose at a step's begin. Of a step in
+    which a spring begins or ends to act, what is left is anything up to its second order.
     """
     native = realised == "native"
     rubs = any(joint.dry_friction for joint in scene.joints.values())
     brakes = rubs and not _lawful(scene, realised)
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided, roped = any(scene.one_sided()), any(scene.limits())
+    jumps = (rubs or met) and any(law.corners for law in scene.laws())
     jointed = realised == "driver" and met and bool(scene.joints)  # no gap is closed in a part
-    return (
-        (native and (damped(scene) or met)) or brakes or strides(scene) or sided or roped or jointed
-    )
+    told = brakes or jumps or strides(scene) or sided or roped or jointed
+    return told or (native and (damped(scene) or met))
 
 
 def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:
