@@ -69,7 +69,7 @@ class Word(Plain):
 def label(word: str) -> str | None:
     """The mistake in the name of a parameter, in words; None if it is sound."""
     if not re.fullmatch(IDENTIFIER, word):
-        return f"{word!r} is not a name: letters, digits and _, not starting with a digit"
+        return f"{word!r} is not a name: ASCII letters, digits and _, not starting with a digit"
     return "the name 'unknown' is taken" if word == "unknown" else None
 
 

@@ -67,7 +67,7 @@ def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
             name = f"{engine}.{setting}" if how == "native" else f"{engine}.{setting} ({how})"
             step = "" if row.step is None else f" at {row.step:g} s"
             nearest = f"{name}, {row.quantity} ×{row.ratio:.2g}{step}"
-            yield f"{case.name} in {engine}: no recipe of ours keeps it; nearest: {nearest}"
+            yield f"{case.name} in {engine}: none keeps it at the judged step; nearest: {nearest}"
 
 
 def _of_no_row(

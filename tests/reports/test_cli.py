@@ -89,7 +89,10 @@ def test_a_question_is_answered_and_does_not_fail(new: Path) -> None:
     new.write_text(NEW.replace("rod.angle: 1.0e-2", "rod.angle: 1.0e-12"), encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
     assert done.returncode == 0
-    assert "cart in mujoco: no recipe of ours keeps it; nearest: mujoco.tuned, rod." in done.stdout
+    assert (
+        "cart in mujoco: none keeps it at the judged step; nearest: mujoco.tuned, rod."
+        in done.stdout
+    )
     assert "FAILS" not in done.stdout
 
 

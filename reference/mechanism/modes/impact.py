@@ -2,7 +2,8 @@
 
 (2.60) integrated over the instant: M (q̇⁺ − q̇⁻) = Λ_b f_aᵇ. Joints and sticking contacts hold, the
 floor gives back the part `restitution` of the normal velocity, and friction is an impulse of
-Coulomb's law (2.87): within the cone it stops the slip, else it is μ times the normal impulse.
+Coulomb's law (2.87): within the cone it stops the slip, else it is μ times the normal impulse and
+against the slip that is left. (Routh's friction turns where the slip does, within the blow.)
 
 All ways are asked in which the contacts may do that (`blow`), so that nothing depends on their
 order. Most often one velocity keeps the laws and creates no energy. Several do where a disk may as
