@@ -41,7 +41,7 @@ def check(
     if not any(twice(parsed)) and not unfit and not parsed.lacks("states"):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
-        yield from sampling(parsed.file)
+        yield from sampling(parsed.file, known)
     yield from _parameters(parsed, data, systems)
 
 
@@ -109,11 +109,13 @@ def slowing(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 _SEARCHED = 10_000  # counts of samples tried on each side
 
 
-def sampling(file: File) -> Iterator[Finding]:
+def sampling(file: File, known: Engines | None) -> Iterator[Finding]:
     """A mistake where some step does not divide the interval, with the nearest counts that do."""
-    steps = tuple(file.step.values()) if isinstance(file.step, Mapping) else (file.step,)
+    by_engine = file.step if isinstance(file.step, Mapping) else {None: file.step}
+    by_engine = {k: h for k, h in by_engine.items() if not (k and known) or k in known}
+    steps = tuple(by_engine.values())
     if any(isnan(number) for number in (file.duration, *steps)):
-        return  # a mistaken parameter, found elsewhere
+        return  # a mistaken number, found elsewhere
     if _fits(file.duration, file.samples, steps):
         return
     below = range(file.samples - 1, max(2, file.samples - _SEARCHED), -1)
@@ -124,7 +126,7 @@ def sampling(file: File) -> Iterator[Finding]:
     ]
     found = " or ".join(str(n) for n in near if n is not None)
     interval = file.duration / (file.samples - 1)
-    if not found and (off := _off(file, interval)):
+    if not found and (off := _off(by_engine, interval)):
         path, better = off
         yield path, f"4 h should divide the sample interval {interval:.6g} s: {better:g} s does"
         return
@@ -135,9 +137,8 @@ def sampling(file: File) -> Iterator[Finding]:
     )
 
 
-def _off(file: File, interval: float) -> tuple[Path, float] | None:
+def _off(steps: Mapping[str | None, float], interval: float) -> tuple[Path, float] | None:
     """Where the step [s] stands that does not divide the interval, and a smaller one that does."""
-    steps = file.step if isinstance(file.step, Mapping) else {None: file.step}
     for name, h in steps.items():
         if _fits(interval, 2, (h,)) or not 0 < h < inf:
             continue

@@ -1,6 +1,6 @@
 """A scene as a case file writes it: in the plane, or in space where it says so."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, Tag, create_model
@@ -236,11 +236,17 @@ GRAVITY = "`none` (a scene seen from above), how strong it is [m/s²], or a vect
 INCLINE = "turns gravity, never the ground: x points down the slope"
 
 
+NOT_THERE: Mapping[str, str] = dict.fromkeys(
+    ("gears", "pulleys", "meshes", "fluids"), "no scene has gears, pulleys, meshes or fluids"
+)
+
+
 class Scene(Part):
     """Bodies and what joins, touches and drives them."""
 
     elsewhere = {  # noqa: RUF012  # a ClassVar of Part
-        "stops": "each is one of the `forces`: NAME: {stops: JOINT, low: -90 deg}"
+        "stops": "each is one of the `forces`: NAME: {stops: JOINT, low: -90 deg}",
+        **NOT_THERE,
     }
 
     space: Annotated[int, Space()] | None = Field(None, description="3: a scene in space")
@@ -261,6 +267,8 @@ class Scene(Part):
 
 class SpatialScene(Part):
     """Bodies in space, and what joins, touches and drives them."""
+
+    elsewhere = NOT_THERE
 
     space: Annotated[int, Space()] = 3
     gravity: vector.Gravity | None = Field(None, description=GRAVITY)
