@@ -50,6 +50,7 @@ tesla = kilogram / ampere / second**2 = T
 # them are doubles, which go from 1e-308 to 1e308.
 SMALLEST, LARGEST = 1e-60, 1e30
 TURN = 2 * math.pi
+SHORT = 60  # letters of a number: no search is long
 _KNOWN = ("m", "mm", "cm", "kg", "g", "s", "ms", "rad", "deg", "rpm", "N", "kN", "J", "W")
 
 
@@ -104,21 +105,26 @@ def amount(value: object, known: Names = NONE) -> Amount:
     """A literal or a quantity with its unit, in SI; known: what else a formula may name."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return Amount(_sized(float(value), value))
-    short = isinstance(value, str) and len(value) <= 60  # so that no search is long
+    short = isinstance(value, str) and len(value) <= SHORT
     if short and (match := _QUANTITY.fullmatch(str(value))):
         return _measured(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
     text = str(value).strip()
-    if short and _FORMULA.fullmatch(text) and {"pi", *known.amounts}.issuperset(_words(text)):
+    if _formula(text) and all(word == "pi" or word in known.amounts for word in _words(text)):
         raise NumberMistake(f"{value!r} is not computed: write {_computed(text, known)}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
 
 
 def named_in(text: str, parameters: Collection[str]) -> set[str]:
     """The parameters that a text names: as a number, as `-name`, or in a formula, which is none."""
-    whole = not _FORMULA.fullmatch(text) or _QUANTITY.fullmatch(text)
-    return set(parameters).intersection([text.removeprefix("-")] if whole else _words(text))
+    whole = not _formula(text) or _QUANTITY.fullmatch(text)
+    words = [text.removeprefix("-")] if whole else _words(text)
+    return {word for word in words if word in parameters}
+
+
+def _formula(text: str) -> bool:
+    return len(text) <= SHORT and bool(_FORMULA.fullmatch(text))
 
 
 def _words(formula: str) -> list[str]:
