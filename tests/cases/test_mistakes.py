@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from textmech.cases.find import find
+from textmech.cases.language import parse
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 
@@ -116,6 +117,16 @@ def test_a_wrong_number_hides_no_other_mistake(
     said = [mistake.what for mistake in mistakes(tmp_path, SOUND.replace(old, new)).mistakes]
     assert any(number in what for what in said)
     assert any(other in what for what in said)
+
+
+@pytest.mark.mutant("a wrong number that hides what else is wrong beside it")
+def test_a_wrong_number_that_hides_others_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(parse, "_without_number", lambda data, path: (data, False))
+    for old, new, _, other in BESIDE:
+        said = [mistake.what for mistake in mistakes(tmp_path, SOUND.replace(old, new)).mistakes]
+        assert not any(other in what for what in said), other
 
 
 def test_a_wrong_number_and_a_mistaken_body_are_told_together(tmp_path: Path) -> None:
