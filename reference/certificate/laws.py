@@ -23,7 +23,7 @@ from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
-from .reaction_check import reacting, unexplained
+from .reaction_check import lost, reacting, unexplained
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 DRIFT = 10  # roundings a step: more than that is no drift, but another drive
@@ -213,11 +213,12 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
             forces.append(_other_forces(mode, unbalanced[-1].reactions, t, q, v))
     size, power = worst(sizes) or 1.0, worst(powers) or 1.0
     by = "Lagrange with multipliers (2.60)" if bound else "Lagrange (2.44)"
-    lost = max(LAW, OF_MULTIPLIERS * _rounding(mode, 1.0))
-    if bound:
+    least = max(LAW, OF_MULTIPLIERS * _rounding(mode, 1.0))
+    apart = worst(derived) / size
+    if bound and apart > least:
         at = int(np.argmax(derived))
-        lost = max(lost, _lost(mode, float(times[at]), *mode.parted(y[at])))
-    yield Check(f"accelerations by {by}", worst(derived) / size, lost)
+        least = max(least, _held_together(mode, float(times[at]), *mode.parted(y[at])))
+    yield Check(f"accelerations by {by}", apart, least)
     if by_one:
         yield Check("Lagrangian (2.51), (2.52)", worst(by_one) / size, LAW)
     beside = min(_beside(worst(drifted) / power), max(LAW, scale.drift))
@@ -229,21 +230,6 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     known = [apart for apart in forces if apart is not None]
     if known:  # a system need not know its reactions
         yield Check("reactions by Newton-Euler", worst(known), LAW)
-
-
-def _lost(mode: Mode, t: float, q: Array, v: Array) -> float:
-    """Rounding error of the equations for the multipliers, a power of ten: 1e-11 in a chain of 60.
-
-    Twice what their condition makes of one rounding, with rows of size 1; nothing is said of what
-    is singular.
-    """
-    rows = np.asarray(constraint_rows(mode, t, q, len(v)), dtype=np.float64)
-    matrix = rows @ np.linalg.solve(lagrange.inertia(mode, t, q, v), rows.T)
-    sizes = np.sqrt(np.diag(matrix))
-    condition = float(np.linalg.cond(matrix / np.outer(sizes, sizes)))
-    if not condition < SINGULAR:
-        return 0.0
-    return 10.0 ** math.ceil(math.log10(2 * np.finfo(float).eps * condition))
 
 
 def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Check]:
@@ -283,6 +269,18 @@ def _rounding(mode: Mode, condition: float) -> float:
     masses = [mass.m for mass in mode.masses.values()]
     lost = max(condition, max(masses) / min(masses))
     return 10.0 ** math.ceil(math.log10(10 * np.finfo(float).eps * lost))
+
+
+def _held_together(mode: Mode, t: float, q: Array, v: Array) -> float:
+    """Rounding error where many constraints hang on each other, a power of ten: 1e-9 of 60 pins.
+
+    By the condition of their rows, each of size 1, and not of their masses, which `_rounding` has.
+    Nothing is said of rows that depend on each other.
+    """
+    rows = np.asarray(constraint_rows(mode, t, q, len(v)), dtype=np.float64)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        condition = float(np.linalg.cond(rows / np.linalg.norm(rows, axis=1, keepdims=True))) ** 2
+    return lost(condition) if condition < SINGULAR else 0.0
 
 
 def _other_forces(

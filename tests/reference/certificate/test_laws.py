@@ -139,7 +139,7 @@ def chain() -> str:
 def test_a_long_chain_is_certified_as_far_as_its_equations_tell(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Measured 1.3e-12: half of a rounding times the condition of 1.2e4 that 60 bars have."""
+    """Measured 1.05e-12, of a condition of 1e4; with 11 samples 1.3e-12."""
     case = scenes.typed(tmp_path, chain(), tail=scenes.tail(0.5, 3))
 
     def broken() -> list[str]:
@@ -147,11 +147,11 @@ def test_a_long_chain_is_certified_as_far_as_its_equations_tell(
 
     assert broken() == []
     with monkeypatch.context() as told:
-        told.setattr(laws, "_lost", lambda mode, t, q, v: 0.0)
+        told.setattr(laws, "_held_together", lambda mode, t, q, v: 0.0)
         assert broken() == [MULTIPLIERS]
     sound = Multibody.accelerations
     off = 1 + 1e-9
     monkeypatch.setattr(
         Multibody, "accelerations", lambda self, t, q, v: off * sound(self, t, q, v)
     )
-    assert MULTIPLIERS in broken()
+    assert POWER in broken()  # which loses nothing by a chain's length
