@@ -1,6 +1,7 @@
 """Numbers of a case: a literal, a parameter's name, `-name`, or a quantity with its unit."""
 
 import math
+import operator
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
@@ -11,7 +12,9 @@ from ..mistake import nearest
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LITERAL = r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
-_OF_TWO = re.compile(rf"({_LITERAL}|-?[A-Za-z_]\w*)\s*([*/+-])\s*({_LITERAL}|-?[A-Za-z_]\w*)")
+_OPERAND = rf"({_LITERAL}|-?{_NAME.pattern})"
+_OF_TWO = re.compile(rf"{_OPERAND}\s*([*/+-])\s*{_OPERAND}")
+_OPERATORS = {"*": operator.mul, "/": operator.truediv, "+": operator.add, "-": operator.sub}
 _FORMULA = re.compile(r"[A-Za-z0-9_.()^*/+ -]*[(^*/+][A-Za-z0-9_.()^*/+ -]*")
 _TERM = r"(?:[A-Za-zµμ°]{1,12}(?:(?:\^|\*\*)-?[1-4]|[²³⁴])?)"
 _QUANTITY = re.compile(rf"({_LITERAL})\s*({_TERM}(?:\s*[ */·]\s*{_TERM}){{0,5}})")
@@ -110,7 +113,7 @@ def amount(value: object, known: Names = NONE) -> Amount:
         return _measured(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
-    text = str(value).strip()
+    text = str(value).strip() if short else ""
     if _formula(text) and all(word == "pi" or word in known.amounts for word in _words(text)):
         raise NumberMistake(f"{value!r} is not computed: write {_computed(text, known)}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
@@ -138,7 +141,9 @@ def _computed(formula: str, known: Names) -> str:
     x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
     if of_two is None or x is None or y is None or (of_two[2] == "/" and not y):
         return "the number"
-    found = {"*": x * y, "/": x / (y or 1.0), "+": x + y, "-": x - y}[of_two[2]]
+    found = _OPERATORS[of_two[2]](x, y)
+    if not math.isfinite(found):
+        return "the number"
     angle = f", or {math.degrees(found):g} deg" if "pi" in of_two.group(1, 3) else ""
     return f"{found:.10g}{angle}"
 

@@ -20,7 +20,7 @@ _SHAPES = {
 
 
 def wrong(what: str, *, number: bool = False) -> PydanticCustomError:
-    """A mistake already in plain words; number: that of one number, without which all else is."""
+    """A mistake already in plain words; number: of one number, beside which all else is sound."""
     return PydanticCustomError("plain", "{what}", {"what": what, "number": number})
 
 

@@ -87,6 +87,7 @@ def parse(data: Mapping[str, Any]) -> Parsed:
             first = not broken
             for found in error.errors(include_url=False):
                 path = _path(found["loc"])
+                # Of a parameter it is known already: what names it is as a wrong number is here.
                 if first and found.get("ctx", {}).get("number") and path[0] != "parameters":
                     rest, there = _without_number(rest, path)
                     if there:

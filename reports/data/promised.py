@@ -67,7 +67,8 @@ def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
             name = f"{engine}.{setting}" if how == "native" else f"{engine}.{setting} ({how})"
             step = "" if row.step is None else f" at {row.step:g} s"
             nearest = f"{name}, {row.quantity} ×{row.ratio:.2g}{step}"
-            yield f"{case.name} in {engine}: none keeps it at the judged step; nearest: {nearest}"
+            nothing = "no setting keeps it at the judged step"
+            yield f"{case.name} in {engine}: {nothing}; nearest: {nearest}"
 
 
 def _of_no_row(

@@ -138,6 +138,12 @@ def test_a_wrong_number_and_a_mistaken_body_are_told_together(tmp_path: Path) ->
     ]
 
 
+def test_what_no_scene_has_is_told(tmp_path: Path) -> None:
+    text = SOUND.replace("  contacts:\n", "  pulleys: {p: 1}\n  contacts:\n")
+    (told,) = mistakes(tmp_path, text).mistakes
+    assert told.what == "unknown key 'pulleys'; no scene has gears, pulleys, meshes or fluids"
+
+
 def test_a_step_of_an_unknown_engine_is_asked_for_nothing_else(tmp_path: Path) -> None:
     text = SOUND.replace("{mujoco: 1.0e-3, pymunk: 1.0e-4}", "{mujoco: 1.0e-3, foo: 3}")
     assert [m.where for m in mistakes(tmp_path, text).mistakes] == ["step.foo"]

@@ -131,6 +131,7 @@ HERTZ = "; Hz may count turns or radians: write rpm or rad/s"
         ("-m / 2", "kg", "'-m / 2' is not computed: write -0.75"),
         ("m+1e-3", "kg", "'m+1e-3' is not computed: write 1.501"),
         ("2*l1", "m", "'2*l1' is not computed: write 0.4"),
+        ("1e300*1e300", "kg", "'1e300*1e300' is not computed: write the number"),
         ("m/zero", "kg", "'m/zero' is not computed: write the number"),
         ("2*wrong", "kg", "'2*wrong' is not computed: write the number"),
         ("m*m/2", "kg", "'m*m/2' is not computed: write the number"),

@@ -216,9 +216,7 @@ def test_what_stays_beside_an_event_is_not_the_steps() -> None:
     )
     usable = replace(found, usable_step=1e-3)
     assert "one number" not in cause(usable, simplified="one number")
-    unknown = cause(
-        usable, finer="it explodes", simplified="one number"
-    )  # then the model may be it
+    unknown = cause(usable, finer="it explodes", simplified="one number")
     assert unknown.endswith("neither step nor model can be named; one number")
 
 

@@ -82,7 +82,8 @@ def test_the_nearest_is_named(asked: Case) -> None:
     ]
     (line,) = unkept(asked, rows)
     engine, name = rows[0].engine, rows[0].quantity
-    told = f"none keeps it at the judged step; nearest: {engine}.tuned, {name} ×1.4 at 0.0001 s"
+    nearest = f"{engine}.tuned, {name} ×1.4 at 0.0001 s"
+    told = f"no setting keeps it at the judged step; nearest: {nearest}"
     assert line == f"{asked.name} in {engine}: {told}"
     assert not [*unkept(asked, rows[1:])]  # nobody has tried
     kept = [rows[0], replace(rows[1], verdict=AGREES)]

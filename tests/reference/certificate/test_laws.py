@@ -131,6 +131,23 @@ def chain() -> str:
     )
 
 
+@pytest.mark.parametrize(
+    ("rows", "lost"),
+    [
+        ([[1.0, 0.0], [0.0, 5.0]], 1e-13),
+        ([[1.0, 0.0], [1.0, 0.0]], 0.0),
+        ([[1.0, 0.0], [0.0, 0.0]], 0.0),
+    ],
+    ids=["apart", "dependent", "one of none"],
+)
+def test_rows_that_depend_on_each_other_widen_nothing(
+    rows: list[list[float]], lost: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(laws, "constraint_rows", lambda *_: rows)
+    none = np.zeros(2)
+    assert laws._held_together(None, 0.0, none, none) == pytest.approx(lost)  # type: ignore[arg-type]
+
+
 @pytest.mark.slow
 @pytest.mark.mutant(
     "rounding of a long chain's equations taken for a mistake",
