@@ -117,8 +117,9 @@ def lifted(way: Realised, until: float) -> float:
     return float(np.abs(run.states["block"][:, VX] - exact).max())
 
 
-# m/s: a step of friction where the pull begins, 0.3 g h, less what is left of the floor's spring.
-LIFTS = {"law": 3e-3, "driver": 3e-3}
+# m/s. The law rubs as in the step before: one step too long, 0.3 g h = 2.942e-3, as measured. The
+# driver asks at every stage: measured 4e-8, of MuJoCo's least friction.
+LIFTS = {"law": 3e-3, "driver": 1e-7}
 
 
 @pytest.mark.slow
