@@ -28,7 +28,7 @@ from .coverage import noting
 from .determined import check_determined
 from .integrators.budget import apart
 from .integrators.now import begun, doing
-from .islands import Island, parts, together
+from .islands import Island, joined, parts, together
 from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
@@ -93,32 +93,67 @@ def _solved(case: Case) -> Island:
     written = _written(case)
     generated = mechanism(case)
     with refusals(case, generated):
-        system = written or generated
         if written:
             check_start(case, written, generated)
-        followed = follow(system, case.times, every=bool(case.events))
-        found = followed if system is generated else follow(generated, case.times)
+        built, answer = _answers(case, written, generated, case.times)
         doing("its quantities")
-        asked = _accelerations(case)
-        built = Answer(generated, found, accelerates=asked, scene=case.scene)
         opened = check_determined(case, built, generated)
-        beside = reactions_of(generated, found, followed)
-        answer = built
-        if system is not generated:
-            answer = Answer(system, followed, beside, asked, case.scene)
-        corners = [t for t in system.corners if 0.0 < t < case.duration]
-        switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
-        motion = answer.trajectory(case.times)
-        motion = replace(motion, switches=switches, endless=followed.endless)
-        if case.events:
-            record = replace(answer.record(forces=_felt(case)), ended=_ended(found, followed))
-            motion = replace(motion, record=record)
+        motion = _motion(case, built, answer, case.times)
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
-        check_premises(case, marched, found)
+        check_premises(case, marched, built.followed)
         if built.turns.missed is not None:
             raise unreached(case, *built.turns.missed)
         checks = (*certify(case, answer, built, generated, motion, marched), *opened)
     return Island(case, motion, checks, generated.base)
+
+
+def _answers(
+    case: Case, written: System | None, generated: Mechanism, times: Array
+) -> tuple[Answer, Answer]:
+    """The generated mechanism's motion, and the answer: the written system's, if there is one."""
+    system, asked = written or generated, _accelerations(case)
+    followed = follow(system, times, every=bool(case.events))
+    moved = followed if system is generated else follow(generated, times)
+    built = Answer(generated, moved, accelerates=asked, scene=case.scene)
+    if system is generated:
+        return built, built
+    beside = reactions_of(generated, moved, followed)
+    return built, Answer(system, followed, beside, asked, case.scene)
+
+
+def _motion(case: Case, built: Answer, answer: Answer, times: Array) -> Trajectory:
+    """The answer's bodies at the times, with its record if the case asks for events."""
+    system, followed = answer.system, answer.followed
+    corners = [t for t in system.corners if 0.0 < t < case.duration]
+    switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
+    motion = replace(
+        answer.trajectory(times),
+        switches=switches,
+        blows=np.array([change.time for change in answer.blows()]),
+        endless=followed.endless,
+    )
+    if case.events:
+        record = replace(answer.record(forces=_felt(case)), ended=_ended(built.followed, followed))
+        motion = replace(motion, record=record)
+    return motion
+
+
+def motion_at(case: Case, times: Array) -> Trajectory:
+    """Returns the motion of a case that `solve` certifies at other times [s], from 0 on.
+
+    It is followed anew, to each of these times, and not certified anew.
+    """
+    begun(case.name)
+    with bounded(case), one_thread():
+        islands = list[Island]()
+        for part in parts(case):
+            generated = mechanism(part)
+            with refusals(part, generated):
+                built, answer = _answers(part, _written(part), generated, times)
+                islands.append(
+                    Island(part, _motion(part, built, answer, times), (), generated.base)
+                )
+    return islands[0].motion if len(islands) == 1 else joined(case, islands, times)
 
 
 def mechanism(case: Case) -> Mechanism:

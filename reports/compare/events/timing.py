@@ -82,6 +82,16 @@ class Timing:
         }
 
     @cached_property
+    def around(self) -> dict[tuple[float, tuple[float, ...]], Trajectory]:
+        """The reference around impacts, by the step and the impacts [s], as far as asked for."""
+        return {}
+
+    @cached_property
+    def later(self) -> "dict[float, tuple[Trajectory, Timing]]":
+        """The reference from a time [s] on, with its events, as far as that was asked for."""
+        return {}
+
+    @cached_property
     def _sure(self) -> dict[tuple[str, float], NDArray[np.int64]]:
         return {}
 
