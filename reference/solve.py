@@ -98,7 +98,7 @@ def _solved(case: Case) -> Island:
         built, answer = _answers(case, written, generated, case.times)
         doing("its quantities")
         opened = check_determined(case, built, generated)
-        motion = _motion(case, built, answer, case.times)
+        motion = _motion(case, built, answer)
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
         check_premises(case, marched, built.followed)
         if built.turns.missed is not None:
@@ -121,39 +121,50 @@ def _answers(
     return built, Answer(system, followed, beside, asked, case.scene)
 
 
-def _motion(case: Case, built: Answer, answer: Answer, times: Array) -> Trajectory:
-    """The answer's bodies at the times, with its record if the case asks for events."""
-    system, followed = answer.system, answer.followed
-    corners = [t for t in system.corners if 0.0 < t < case.duration]
-    switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
-    motion = replace(
-        answer.trajectory(times),
-        switches=switches,
-        blows=np.array([change.time for change in answer.blows()]),
-        endless=followed.endless,
-    )
+def _motion(case: Case, built: Answer, answer: Answer) -> Trajectory:
+    """The answer's bodies at the samples, with its record if the case asks for events."""
+    motion = _switched(answer, answer.trajectory(case.times), case.duration)
     if case.events:
-        record = replace(answer.record(forces=_felt(case)), ended=_ended(built.followed, followed))
-        motion = replace(motion, record=record)
+        ended = _ended(built.followed, answer.followed)
+        motion = replace(motion, record=replace(answer.record(forces=_felt(case)), ended=ended))
     return motion
 
 
-def motion_at(case: Case, times: Array) -> Trajectory:
-    """Returns the motion of a case that `solve` certifies at other times [s], from 0 on.
+def _switched(answer: Answer, motion: Trajectory, end: float) -> Trajectory:
+    """The motion with the times at which it switches."""
+    followed = answer.followed
+    corners = [t for t in answer.system.corners if 0.0 < t < end]
+    return replace(
+        motion,
+        switches=np.array([*(change.time for change in followed.changes), *corners], dtype=float),
+        blows=np.array([change.time for change in answer.blows()], dtype=float),
+        endless=followed.endless,
+    )
 
-    It is followed anew, to each of these times, and not certified anew.
+
+def motion_of(case: Case) -> Callable[[Array], Trajectory]:
+    """Returns a function for the motion that `solve` certifies at other times [s] up to its end.
+
+    It is followed once more, and each state at another time is a step from there.
     """
     begun(case.name)
+    answers = list[tuple[Case, Mechanism, Answer]]()
     with bounded(case), one_thread():
-        islands = list[Island]()
         for part in parts(case):
             generated = mechanism(part)
             with refusals(part, generated):
-                built, answer = _answers(part, _written(part), generated, times)
-                islands.append(
-                    Island(part, _motion(part, built, answer, times), (), generated.base)
-                )
-    return islands[0].motion if len(islands) == 1 else joined(case, islands, times)
+                _, answer = _answers(part, _written(part), generated, part.times)
+            answers.append((part, generated, answer))
+
+    def at(times: Array) -> Trajectory:
+        islands = list[Island]()
+        with one_thread():
+            for part, generated, answer in answers:
+                motion = _switched(answer, answer.at(times), part.duration)
+                islands.append(Island(part, motion, (), generated.base))
+        return islands[0].motion if len(islands) == 1 else joined(case, islands, times)
+
+    return at
 
 
 def mechanism(case: Case) -> Mechanism:

@@ -17,7 +17,7 @@ from ...cases.trajectory import Trajectory
 from ..coverage import equation
 from ..formalisms.derivative import along
 from ..system import Array, Mode, Pose, System
-from .follow import Change, Followed, Kept
+from .follow import Change, Followed, Kept, rows_at
 from .stuck import Stuck, slope
 
 JUMPS = 1e-6  # of the fastest rate: what stops is set to rest by less, an impact jumps by more
@@ -192,6 +192,10 @@ class Answer:
         phases = self.followed.phase.tolist()
         rows = zip(times.tolist(), phases, y, strict=True)
         return self.turns.with_turns(self._bodies(rows, forces=True))
+
+    def at(self, times: Array) -> Trajectory:
+        """The motion at any times [s] up to the last sample."""
+        return self.along(rows_at(self.system, self.followed, times))
 
     def blows(self) -> list[Change]:
         """Returns the changes of mode at which rates jump, as those of an impact do."""

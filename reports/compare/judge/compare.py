@@ -33,7 +33,7 @@ from ..trial.trial import Trial, judged_names
 from . import instants, metric
 from .cause import cause
 from .convergence import Convergence, study
-from .error_instant import moment
+from .error_instant import away_from_instants, moment
 from .instants import Study
 from .metric import floor, round_to_floor
 from .rows import judged, row, rungs, steps
@@ -181,8 +181,9 @@ def _judged(
         why = f"{at.words}; elsewhere at most {round_to_floor(rest, least):.2g}"
         moments[name] = why
         if not rest <= (trial.allowed(name) or np.inf):
-            others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
-            others = _telling(trial, name, runs, rest, others, at.elsewhere)
+            elsewhere = away_from_instants(trial)
+            others = _study(trial, ladders[-1], runs, name, elsewhere)
+            others = _telling(trial, name, runs, rest, others, elsewhere)
             why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
     when = float(worst.trial.case.times[error.at])
     word = verdict(trial, name, error.largest, held, why, tuned)
@@ -198,19 +199,16 @@ def _worst(begun: Sequence[Begun], name: str) -> Begun:
 def _over_phases(
     studies: Sequence[Study], trial: Trial, runs: Runs, phases: Phases
 ) -> Iterator[Study]:
-    """Yields the studies, each usable up to the step from which on every start keeps the bound."""
-    lucky = {(ladder, name) for ladder, name, found in studies if found.usable_step}
-    usable: dict[tuple[Ladder, str], float] = {}
-    for ladder, climbed in runs.ladders.items():
-        kept = ladder.plan(trial.plan).kept
-        for h, samples in sorted(climbed.items()):
-            begun = [Begun(trial, samples), *phases.at(h, kept)]
-            lucky -= {at for at in lucky if at[0] == ladder and not _keep(at[1], begun, h)}
-            usable |= {at: h for at in lucky if at[0] == ladder}
-            if not any(at[0] == ladder for at in lucky):
-                break
+    """Yields the studies, each usable up to the largest step at which every start keeps the bound.
+
+    Smaller steps are known to keep it from one start, and are not asked of the others.
+    """
     for ladder, name, found in studies:
-        yield ladder, name, replace(found, usable_step=usable.get((ladder, name)))
+        kept, climbed = ladder.plan(trial.plan).kept, runs.ladders[ladder]
+        steps = [h for h in sorted(climbed) if h <= (found.usable_step or 0.0)]
+        begun = ((h, [Begun(trial, climbed[h]), *phases.at(h, kept)]) for h in reversed(steps))
+        usable = next((h for h, starts in begun if _keep(name, starts, h)), None)
+        yield ladder, name, replace(found, usable_step=usable)
 
 
 def _keep(name: str, begun: Sequence[Begun | str], step: float) -> bool:

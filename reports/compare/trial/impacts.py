@@ -10,7 +10,6 @@ import numpy as np
 
 from ....cases.scene.observe import observe
 from ....cases.trajectory import Array, Trajectory
-from ....reference.solve import motion_at
 from .trial import Trial
 
 BESIDE = 2  # steps: an engine sees an impact at the end of a step, and some act on it in the next
@@ -69,7 +68,7 @@ def _around(trial: Trial, step: float, near: dict[int, list[float]]) -> Trajecto
     kept = trial.timing.around
     if (step, blows) not in kept:
         rows = [times for blow in blows for times in _spaced(trial, blow, step)]
-        kept[step, blows] = motion_at(trial.case, np.unique(np.concatenate([[0.0], *rows])))
+        kept[step, blows] = trial.timing.motion(np.unique(np.concatenate(rows)))
     return kept[step, blows]
 
 
@@ -77,6 +76,6 @@ def _spaced(trial: Trial, blow: float, step: float) -> Iterator[Array]:
     """Yields three times [s] before an impact and three behind it, where nothing else switches."""
     others = [s for s in trial.reference.switches.tolist() if s != blow]
     before = blow - max((s for s in others if s < blow), default=0.0)
-    behind = min((s for s in others if s > blow), default=np.inf) - blow
+    behind = min((s for s in others if s > blow), default=float(trial.case.times[-1])) - blow
     yield np.sort(blow - min(step, before / ROOM) * ROWS)
     yield blow + min(step, behind / ROOM) * ROWS

@@ -12,16 +12,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ....cases.case import Case
 from ....cases.trajectory import Trajectory
 from ....engines.engine import Plan
-from ....reference.solve import motion_at
-from ..events.timing import Timing, timing
+from ..events.timing import Timing
 from .run import Samples, climbed
 from .simulate import fairly, rung
-from .start import first
 from .trial import Trial, planned
 
 PARTS = (0.25, 0.5, 0.75)  # of a step, by which the engine begins later
@@ -52,34 +48,50 @@ def begun_later(trial: Trial, step: float) -> Iterator[Trial]:
     for part in PARTS:
         late = part * step
         if late + step < quiet:
-            case = replace(trial.case, late=late)
-            reference, timed = _from(trial, case)
-            begins = first(reference)
-            ways = planned(trial.engine, case.scene.later(late), begins)
+            other = _later(trial, late)
+            ways = planned(trial.engine, other.case.scene.later(late), other.start)
             for way in ways:
                 if way.realised == trial.realised and isinstance(way, Plan):
                     plan = replace(way, withheld=trial.plan.withheld, kept=trial.plan.kept)
-                    yield replace(trial, case=case, reference=reference, way=plan, timed=timed)
+                    yield replace(other, way=plan)
 
 
-def _from(trial: Trial, case: Case) -> tuple[Trajectory, Timing]:
-    """The reference at the case's samples, of which the first is later than the start."""
-    if case.late not in trial.timing.later:
-        motion = motion_at(case, np.append(0.0, case.times))
-        record = motion.record and _rows(motion.record, motion.record.times >= case.late)
-        reference = replace(_rows(motion, motion.times > 0.0), record=record)
-        trial.timing.later[case.late] = reference, timing(case, reference)
-    return trial.timing.later[case.late]
+def _later(trial: Trial, late: float) -> Trial:
+    """The trial with the same motion at samples so much [s] later, but for the last."""
+    case, timed = trial.case, trial.timing
+    if late not in timed.later:
+        other = replace(
+            case, late=late, samples=case.samples - 1, duration=case.duration - case.interval
+        )
+        motion = timed.motion(other.times)
+        motion = replace(motion, record=timed.record and _from(timed.record, motion))
+        timed.later[late] = other, motion, Timing(other, motion.record)
+    other, motion, since = timed.later[late]
+    return replace(trial, case=other, reference=motion, timed=since)
 
 
-def _rows(motion: Trajectory, rows: NDArray[np.bool_]) -> Trajectory:
+def _from(record: Trajectory, motion: Trajectory) -> Trajectory:
+    """The record from the motion's first sample to its last."""
+    begins, ends = motion.times[0], motion.times[-1]
+    inside = (record.times > begins) & (record.times <= ends)
+    phase = np.zeros(0, dtype=np.int64) if record.phase is None else record.phase
+    assert motion.phase is not None
     return replace(
-        motion,
-        times=motion.times[rows],
-        states={name: states[rows] for name, states in motion.states.items()},
-        reactions={name: values[rows] for name, values in motion.reactions.items()},
-        near={name: turns[rows] for name, turns in motion.near.items()},
-        phase=None if motion.phase is None else motion.phase[rows],
+        record,
+        times=np.append(begins, record.times[inside]),
+        states={
+            name: np.vstack([motion.states[name][:1], states[inside]])
+            for name, states in record.states.items()
+        },
+        reactions={
+            name: np.append(motion.reactions[name][:1], values[inside])
+            for name, values in record.reactions.items()
+        },
+        near={
+            name: np.vstack([motion.near[name][:1], turns[inside]])
+            for name, turns in record.near.items()
+        },
+        phase=np.append(motion.phase[:1], phase[inside]),
     )
 
 
