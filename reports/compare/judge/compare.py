@@ -70,7 +70,7 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     if runs.judged is None:
         return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
     phases = Phases(trial)
-    later = phases.at(trial.step)
+    later = phases.at(trial.step, trial.plan.kept)
     if lost := [run for run in later if isinstance(run, str)]:
         why = f"begun a part of a step later: {lost[0]}"
         return Outcome(rows + _diverged(trial, (*motion, *events), why))
