@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from given.otherwise import otherwise
 from given.planning import SHIPPED, planned
 from given.scenes import SHIPPED as CASES
 from given.scenes import solved
@@ -172,6 +173,38 @@ def test_friction_while_it_slides() -> None:
     # of 5.85 J, by rounding; and what slides as it should does not creep
     assert found["energy lost"].value == pytest.approx(0.0, abs=1e-9)
     assert found["creep of touch"].value == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.mutant("friction is read of what flies, and energy of a sample on an impact")
+def test_no_number_is_read_in_the_air_or_on_an_impact() -> None:
+    """Thrown with spin it slips in the air; on a sample an impact's kinetic energy is not yet lost.
+
+    An engine may tell a force there, as it sees the impact a step later.
+    """
+    name = "bouncing_disk.elastic"
+    reference, scene = solved(name).trajectory, CASES[name].scene
+    still = np.full(len(reference.times), 1.0)
+    spun = changed(reference, "wheel", vx=1.0)
+    motion = replace(spun, reactions={"touch.normal": still, "touch.tangent": 0.09 * still})
+    assert "friction of touch" not in told(scene, spun, motion)
+    anywhere = otherwise(figures, " & touches & away", "")
+    names = [one.what for one in anywhere.numbers(scene, spun, motion)]
+    assert ("friction of touch" in names) == bool(scene.contacts["touch"].friction)
+    speed = reference.states["wheel"][:, VY].copy()
+    k = int(np.argmin(np.abs(reference.times - reference.blows[0])))
+    speed[k] *= 1.5
+    late, near = (
+        changed(reference, "wheel", vy=speed),
+        2 * abs(reference.times[k] - reference.blows[0]),
+    )
+    rates = [
+        one.value
+        for within in (0.0, float(near))
+        for one in numbers(scene, reference, late, within)
+        if one.what.startswith("energy")
+    ]
+    assert rates[0] > 0.1
+    assert rates[1] == pytest.approx(0.0, abs=1e-9)
 
 
 # Case, engine, its number and the value known by other measurements (a person's rounding).
