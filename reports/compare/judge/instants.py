@@ -51,13 +51,15 @@ def judge(
 
 
 def _count(trial: Trial, event: str, found: Array) -> Comparison:
-    """Whether the event happens as often as in the reference, as far as steps can tell."""
+    """Whether the event happens as often as in the reference; refused where steps cannot tell."""
     name, timing = f"{event}.count", trial.timing
     most = len(timing.events[event])
     least = most if len(found) == most else len(timing.surely(event, trial.step))
     off = timing.miscounted(event, len(found), trial.step)
     short = f" (of which {least} last long enough for this step)" if least < most else ""
     why = f"reference {most}{short}, engine {len(found)}"
+    if off is None:
+        return row(trial, name, REFUSED, because=f"adapter: {why}: a smaller step would tell")
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
