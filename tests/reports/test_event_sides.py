@@ -20,7 +20,10 @@ from textmech.reports.compare.events import times as event_times
 from textmech.reports.compare.events.states import mistaken
 from textmech.reports.compare.events.times import Known, engine_events, reference_events
 
-FALLS, RISES, STAYS, LEAVES = "falls to zero", "rises to zero", "stays zero", "leaves zero"
+FALLS: Rule = "falls to zero"
+RISES: Rule = "rises to zero"
+STAYS: Rule = "stays zero"
+LEAVES: Rule = "leaves zero"
 APART: tuple[tuple[Rule, Rule], ...] = (
     (FALLS, RISES), (STAYS, LEAVES), (FALLS, LEAVES), (RISES, LEAVES)
 )  # fmt: skip
@@ -76,11 +79,11 @@ SHAPES: dict[str, tuple[Array, str]] = {
 TINY = {"lands", "hops"}  # which the mechanism names however small they are
 
 
-def drawn(seed: int) -> tuple[Trajectory, dict[str, list[float]]]:
+def drawn(seed: int) -> tuple[Trajectory, dict[Rule, list[float]]]:
     """A record of up to 30 pieces, and when its slip falls and rises to zero."""
     random = np.random.default_rng(seed)
     times, u, phase, ended = list[Array](), list[Array](), list[Array](), list[str]()
-    happens: dict[str, list[float]] = {FALLS: [], RISES: []}
+    happens: dict[Rule, list[float]] = {FALLS: [], RISES: []}
     t, count = 0.0, int(random.integers(3, 30))
     for k in range(count):
         kind = str(random.choice([*SHAPES]))
@@ -342,6 +345,11 @@ allow: {{b.x: 1.0e-2}}
 """
 
 
+MIRROR: tuple[tuple[Rule, Rule], ...] = (
+    (FALLS, RISES), (RISES, FALLS), (STAYS, STAYS), (LEAVES, LEAVES)
+)  # fmt: skip
+
+
 def mirrored(folder: Path, seed: int, way: float) -> Case:
     """A particle with a spring, dry friction, a push and a wall; way: 1, or -1 to mirror it."""
     random = np.random.default_rng(seed)
@@ -363,7 +371,7 @@ def test_what_falls_rises_in_the_mirror(seed: int, tmp_path: Path) -> None:
     records = [solve(case).trajectory.record for case in cases]
     counts = 0
     for name in ("r.slip", "b.vx", "b.x"):
-        for rule, other in ((FALLS, RISES), (RISES, FALLS), (STAYS, STAYS), (LEAVES, LEAVES)):
+        for rule, other in MIRROR:
             sides = list[Array]()
             for case, record, each in zip(cases, records, (rule, other), strict=True):
                 assert record is not None
@@ -377,7 +385,7 @@ def test_what_falls_rises_in_the_mirror(seed: int, tmp_path: Path) -> None:
 @pytest.mark.parametrize("rule", [FALLS, RISES])
 def test_what_an_engine_leaves_at_rest_comes_from_its_side(rule: Rule, tmp_path: Path) -> None:
     """It stops from below at 0.5 s, and then creeps by a thousandth."""
-    case, t = rail(tmp_path, 1.0), np.arange(2001) * 1e-3
+    case, t = rail(tmp_path, 1.0), np.linspace(0.0, 2.0, 2001)
     states = np.zeros((len(t), 6))
     states[:, VX] = np.where(t < 0.5, 2 * t - 1, 1e-5 * np.sin(30 * (t - 0.5)))
     found = engine_events(case.scene, Trajectory(t, {"b": states}, {}), Event("b.vx", rule), KNOWN)

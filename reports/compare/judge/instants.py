@@ -59,7 +59,7 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
     short = f" (of which {least} last long enough for this step)" if least < most else ""
     why = f"reference {most}{short}, engine {len(found)}"
     if off is None:
-        return row(trial, name, REFUSED, because=f"adapter: {why}: a smaller step would tell")
+        return row(trial, name, REFUSED, because=f"adapter: {why}: a smaller step tells more")
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
