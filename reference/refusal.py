@@ -17,6 +17,7 @@ from ..cases.mistake import CaseError, Mistake
 from ..cases.scene.forces.force import Force
 from ..cases.scene.frame import SPACE
 from ..cases.scene.islands import apart
+from ..cases.scene.joint import Joint
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
 from .mechanism.forces.action import NoDirection
@@ -31,6 +32,7 @@ from .system import Array, Pose
 MOST = cost.LIMIT  # s: the largest shipped case takes 8
 STEEP = 1e-2  # of a blade's length: steps give up well before its shadow is gone
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
+SHARP = 1e7  # sharpness times static friction: 6e5 of the book's can be followed, 6e7 not always
 UNEVEN = 1e4  # of two masses: the lighter one's equations then have lost four digits of sixteen
 FAST = 1e3  # swings in the duration: an integrator of order 8 takes a dozen steps for each
 NAMED = 6  # of the elements in a message: the others are like these
@@ -103,6 +105,7 @@ def _fewer(among: Sequence[str]) -> str:
 
 
 def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
+    place: tuple[str, ...] = ("duration",)
     match failure:
         case BadStart():
             return case.mistake(("initial",), str(failure))
@@ -122,11 +125,17 @@ def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
             poses = failure.mode.poses(time, failure.q, failure.v)
             q, _ = generated.base.place(poses)
             why = _upright(case, poses) or _line(case, generated, time, q) or _constraint(case, q)
-            why = why or f"{str(failure).partition(' at t = ')[0]}{_uneven(case)}"
+            if why is None:
+                why = str(failure).partition(" at t = ")[0]
+                if (joint := _sharpest(case)) is not None:
+                    place = ("scene", "joints", joint.name, "dry_friction", "smooth", "sharpness")
+                    why += _sharp(joint)
+                else:
+                    why += _uneven(case)
         case _:
             raise failure
     what = f"the motion cannot be followed beyond t = {time:.4g} s: {why}"
-    return case.mistake(("duration",), what)
+    return case.mistake(place, what)
 
 
 def _touching(case: Case) -> set[str]:
@@ -160,6 +169,29 @@ def _constraint(case: Case, q: Array) -> str | None:
 def _dependent(case: Case, q: Array) -> str | None:
     """The first part that holds what others nearly hold already."""
     return closure_of(case).dependent(q, DEPENDENT)
+
+
+def _sharpest(case: Case) -> Joint | None:
+    """The joint whose smooth law of friction is the sharpest, if steps may not resolve it."""
+    joints = [joint for joint in case.scene.joints.values() if _sharpness(joint) > SHARP]
+    return max(joints, key=_sharpness, default=None)
+
+
+def _sharpness(joint: Joint) -> float:
+    """A F_s, how sharply (2.95) switches between rest and motion; 0 of any other law."""
+    dry = joint.dry_friction
+    if dry is None or dry.smooth is None:
+        return 0.0
+    return dry.smooth.sharpness * max(dry.static.forward, dry.static.backward)
+
+
+def _sharp(joint: Joint) -> str:
+    """Advice to a person with too sharp a law of friction, as the end of a sentence."""
+    return (
+        "; the sharpness A of (2.95) counts forces as it counts speeds, and the law switches "
+        f"within {1 / _sharpness(joint):.0e} of the static friction of {joint.name}: give a "
+        "smaller `sharpness` and as much larger a `band`, or leave out `smooth` for the exact law"
+    )
 
 
 def _uneven(case: Case) -> str:

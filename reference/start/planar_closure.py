@@ -18,7 +18,7 @@ from ..mechanism.kinematics.coordinates import Coordinates
 from ..mechanism.modes.unilateral import along, apart
 from ..system import Array
 from . import messages
-from .closure import Closure, Coordinate, Equation, value_text
+from .closure import Closure, Coordinate, Equation, product_size, value_text
 from .search import CLOSED, NEAR, rank
 
 FULL_TURN = 1e-9  # rad: −180° within rounding is written 180°
@@ -251,7 +251,7 @@ class PlanarClosure(Closure):
             for f, _, row, _ in self.placed(name, placement, q):
                 angular = f.kind == "turn"
                 (rate,) = self.scaled([Equation(name, 0.0, row, angular)]).rows
-                moves = abs(rate @ v) > CLOSED * np.max(np.abs(rate * v))
+                moves = abs(rate @ v) > CLOSED * product_size(rate[None], v)
                 if f.rate in placement.given or not moves:
                     continue
                 if rank(np.vstack([held.rows, rate])[:, free]) > known:

@@ -11,6 +11,7 @@ from given.refused import refused
 from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
 from scipy.integrate import solve_ivp
 
+from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference import refusal
 from textmech.reference.mechanism.modes.mode import Multibody
@@ -161,6 +162,52 @@ def test_steps_that_shrink_are_told_with_what_can_be_done(
     (mistake,) = caught.value.mistakes
     begin = "the motion cannot be followed beyond t = 0.0003467 s: the steps shrink to nothing; "
     assert mistake.what.startswith(begin + words)
+
+
+HEAVY = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {particle: {mass: 1.0e6}}}
+  joints:
+    guide:
+      slide: [ground.O, b.center]
+      along: [1, 0]
+      dry_friction: {static: 6.0e6, kinetic: 3.0e6, smooth: {band: BAND, sharpness: SHARP}}
+  forces: {pull: {push: b.center, ramp: [-1.0e6, 0]}}
+initial: {b: {x: 0, vx: 0}}
+allow: {b.x: 1.0e-3}
+duration: 8.0
+samples: 11
+"""
+"""Example 2.3 with a million times its masses and forces."""
+
+
+def heavy(tmp_path: Path, band: str, sharpness: str) -> Case:
+    text = HEAVY.replace("BAND", band).replace("SHARP", sharpness)
+    return scenes.typed(tmp_path, text, tail="")
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a smooth law too sharp for its forces is not told")
+def test_a_smooth_law_too_sharp_for_its_forces_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = heavy(tmp_path, "5.0e-4", "1.0e+5")
+    mistake = refused(case)
+    assert mistake.where == "scene.joints.guide.dry_friction.smooth.sharpness"
+    assert "within 2e-12 of the static friction of guide" in mistake.what
+    monkeypatch.setattr(refusal, "SHARP", np.inf)
+    assert refused(case).where == "duration"
+
+
+@pytest.mark.slow
+def test_what_is_advised_against_too_sharp_a_law_helps(tmp_path: Path) -> None:
+    """From t = 6 s on 3e6 N brake: x = -(1e6 s³/6 + (6 - 3) 1e6 s²/2) / 1e6 kg, s = 2 s."""
+    exact = -(2.0**3 / 6 + 3 * 2.0**2 / 2)
+    smoother = solve(heavy(tmp_path, "0.5", "100"))
+    assert smoother.holds
+    assert smoother.trajectory.states["b"][-1, 0] == pytest.approx(exact, abs=1e-6)
 
 
 SLEIGH = """\

@@ -55,13 +55,15 @@ def test_a_ball_that_settles_is_seen_to_bounce_as_long_as_steps_can_tell(h: floa
 
 
 @pytest.mark.slow
-def test_an_engine_bounces_as_often_as_its_steps_can_tell(tmp_path: Path) -> None:
+def test_an_engine_that_bounces_as_often_as_its_steps_can_tell_is_not_blamed(
+    tmp_path: Path,
+) -> None:
+    """Nor are the counts called equal: of 14 bounces steps of 1 ms tell four for sure."""
     (tmp_path / "settles.yaml").write_text(SETTLES)
     done = textmech("run", tmp_path / "settles.yaml", "--engine", "pymunk.tuned")
     assert done.returncode == 0, done.stdout
-    lines = [line for line in done.stdout.splitlines() if "bounces.count" in line]
-    assert len(lines) == 2  # natively, and by the driver that cuts steps
-    assert all("0.00e+00 1" in line and line.endswith("agrees") for line in lines)
+    told = "bounces.count refused: adapter: reference 14 (of which 4 last long enough for this"
+    assert " ".join(done.stdout.split()).count(told) == 2  # natively, and by the driver that cuts
 
 
 def hump(t: Array) -> Array:

@@ -23,6 +23,7 @@ from textmech.reports.compare.events.times import (
     reference_events,
     surely,
 )
+from textmech.reports.compare.events.timing import Timing
 from textmech.reports.compare.judge.compare import compare
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import Trial, planned
@@ -170,7 +171,10 @@ allow: {b.x: 1.0e-3, at.time: 1.0e-2}
 
 
 @pytest.mark.slow
-def test_what_comes_too_soon_for_a_step_is_no_reproach(tmp_path: Path) -> None:
+@pytest.mark.mutant("a count that steps cannot tell is equal")
+def test_what_comes_too_soon_for_a_step_is_no_reproach(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Three steps before it breaks loose, and two of three before the end of a short motion."""
     case = typed(
         tmp_path,
@@ -180,7 +184,22 @@ def test_what_comes_too_soon_for_a_step_is_no_reproach(tmp_path: Path) -> None:
     rows = {row.quantity: row for row in judged(case, Pymunk("shipped"))}
     assert rows["loose.time"].verdict == REFUSED
     assert "is sure of nothing" in rows["loose.time"].because
+    assert rows["loose.count"].verdict == REFUSED
+    told = "adapter: reference 1 (of which 0 last long enough for this step), engine 0: a smaller"
+    assert rows["loose.count"].because.startswith(told)
+    counted = Timing.miscounted
+    monkeypatch.setattr(Timing, "miscounted", lambda *given: counted(*given) or 0.0)
+    rows = {row.quantity: row for row in judged(case, Pymunk("shipped"))}
     assert rows["loose.count"].verdict == AGREES
+
+
+def test_counts_that_differ_are_not_equal(tmp_path: Path) -> None:
+    """Of three slips such steps tell the last alone; what they tell, and misses, is counted."""
+    case, record = solved(tmp_path, WEAKLY)
+    timing = Timing(case.scene, case.events, record)
+    told = {count: timing.miscounted("loose", count, 2e-2) for count in range(6)}
+    assert told == {0: 1.0, 1: None, 2: None, 3: 0.0, 4: 1.0, 5: 2.0}
+    assert timing.miscounted("loose", 2, STEP) == 1.0
 
 
 @pytest.mark.slow

@@ -107,12 +107,13 @@ def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
         found = samples.get(f"{event}.time")
         if found is None:
             return None
-        return np.array([timing.miscounted(event, len(found), trial.step)])
+        off = timing.miscounted(event, len(found), trial.step)
+        return None if off is None else np.array([off])
     if name not in samples:
         return None
     wanted, count = trial.wanted(name), len(samples[name])
     dated = event in timing.events and count < len(wanted)
-    if dated and not timing.miscounted(event, count, trial.step):  # what such steps tell is enough
+    if dated and timing.miscounted(event, count, trial.step) is None:  # such steps tell no more
         wanted = wanted[timing.partners(event, samples[f"{event}.time"])]
     if count != len(wanted):  # another count: which belongs to which?
         return np.array([inf])

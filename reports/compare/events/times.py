@@ -5,7 +5,7 @@ it creeps: it never rests. So no threshold is a time here; a threshold only tell
 What steps of a size can tell of the reference's own events, their reading of it says.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -28,6 +28,7 @@ CURVE = 4  # steps in the curve that what falls is continued by: as good as an e
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
 SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
 SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
+FLAT = 8  # times what a line needs to zero: what comes there by its eighth power takes as long
 AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
 TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
@@ -43,8 +44,7 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
     u, small, pieces = _pieces(scene, record, event)
     parts = _parted(scene, record, event, pieces)
     phases = _phases(scene, record, event, u, small, parts)
-    happens = _RULES[event.rule]
-    times = [float(before.end) for before, after in pairwise(phases) if happens(before, after)]
+    times = [before.end for before, after in pairwise(phases) if _happens(event, before, after)]
     if event.crosses:
         corners = scene.corners()
         for piece in _moving(record, parts, phases):
@@ -85,13 +85,16 @@ def _moving(
 
 @dataclass(frozen=True)
 class _Phase:
-    """A piece of the record, as an event sees it: whether its quantity leaves zero, or falls to it.
+    """A piece of the record, as an event sees it: whether its quantity leaves zero.
 
-    end: of the piece [s]; within: whether its phase goes on there, at a corner of a law.
+    comes: the last value before it comes to zero at the end of the piece, whose sign is the side
+    from which it does; 0 if it does not. fades: whether it counts as zero there, and has only
+    decayed. end: of the piece [s]; within: whether its phase goes on there, at a corner of a law.
     """
 
     moves: bool
-    falls: bool
+    comes: float
+    fades: bool
     end: float
     within: bool
 
@@ -110,10 +113,19 @@ def _phases(
     numbers = [int(record.phase[piece[0]]) for piece in pieces]
     for piece, number, then in zip(pieces, numbers, [*numbers[1:], len(record.ended)], strict=True):
         ended = any(name in names for name in record.ended[number:then])
-        moves = ended or _leaves(u[piece], small)
-        falls = ended or (moves and _lands(u[piece], small))
-        found.append(_Phase(moves, falls, float(record.times[piece[-1]]), number == then))
+        times, values, clear = record.times[piece], u[piece], np.abs(u[piece]) > small
+        last = int(np.flatnonzero(clear)[-1] if np.any(clear) else np.argmax(np.abs(values)))
+        moves, ends = ended or bool(clear[last]), clear[last] and not clear[-1]
+        fades = not ended and ends and _decays(times[last:], values[last:])
+        comes = float(values[last]) if ended or (ends and not fades) else 0.0
+        found.append(_Phase(moves, comes, fades, float(times[-1]), number == then))
     return found
+
+
+def _decays(times: Array, u: Array) -> bool:
+    """Whether u (N,), small from its second row on, has had far more time than it needs to zero."""
+    needed = (times[1] - times[0]) * u[0] / (u[0] - u[1])
+    return bool(times[-1] - times[0] > FLAT * needed)
 
 
 _WORDS = {
@@ -130,18 +142,20 @@ _BLOWS = ("lands", "tightens", "strikes")
 
 
 def _names(scene: Scene, event: Event) -> set[str]:
-    """The mechanism's names for what ends a phase where the event's quantity falls to its value."""
+    """The mechanism's names for what ends a phase where the event's quantity comes to its value.
+
+    They say that it does, and not from which side: a slip, or a spring's force, has two.
+    """
     part, _, field = event.quantity.rpartition(".")
     found = set[str]()
-    if event.value == 0.0 and event.rule != "rises to zero":
+    if event.value == 0.0:
         found = {f"{part} {word}" for word in _WORDS.get(field, ())}
     limit = scene.forces.get(part)
     if isinstance(limit, Limit):
         if field in limit.sides and event.value == 0.0:
             found.add(f"{part}.{field} leaves")
-        falls = 1.0 if event.rule != "rises to zero" else -1.0
-        for side, (sense, at) in limit.sides.items():
-            if field == limit.measured and (sense, at) == (falls, event.value):
+        for side, (_, at) in limit.sides.items():
+            if field == limit.measured and at == event.value:
                 found |= {f"{part} tightens", f"{part}.{side} strikes"}
     return found
 
@@ -154,22 +168,13 @@ def _pieces(
     return u, still(scene, record, event.quantity), lasting(record)
 
 
-_RULES: Mapping[str, Callable[[_Phase, _Phase], bool]] = {
-    "stays zero": lambda before, after: before.moves and not after.moves,
-    "leaves zero": lambda before, after: not before.moves and after.moves,
-    "falls to zero": lambda before, after: before.falls and not (before.within and after.moves),
-    "rises to zero": lambda before, after: before.falls and not (before.within and after.moves),
-}
-
-
-def _lands(u: Array, still: float) -> bool:
-    """Whether u ends at zero, and came to it from above."""
-    moving = u[np.abs(u) > still]
-    return bool(abs(u[-1]) <= still and moving[-1] > 0)
-
-
-def _leaves(u: Array, still: float) -> bool:
-    return bool(np.max(np.abs(u)) > still)
+def _happens(event: Event, before: _Phase, after: _Phase) -> bool:
+    """Whether the event is where one piece ends and the next begins."""
+    if event.crosses:
+        return before.comes > 0.0 and not (before.within and after.moves)
+    if event.rule == "stays zero":
+        return before.moves and not before.fades and not after.moves
+    return not before.moves and after.moves
 
 
 @dataclass(frozen=True)
@@ -295,7 +300,7 @@ def _comes_to_rest(scene: Scene, record: Trajectory, event: Event) -> bool:
         return False
     u, small, pieces = _pieces(scene, record, event)
     phases = _phases(scene, record, event, u, small, _parted(scene, record, event, pieces))
-    return any(before.falls and not after.moves for before, after in pairwise(phases))
+    return any(before.comes > 0.0 and not after.moves for before, after in pairwise(phases))
 
 
 def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tuple[Array, Array]:
@@ -440,7 +445,7 @@ def _zero(times: Array, u: Array, i: int) -> float:
 
 
 def never(case: Case, reference: Trajectory) -> list[Mistake]:
-    """A mistake for every event of the case that the reference does not know.
+    """A mistake for every event that the reference does not know, or has at its last instant.
 
     A contact that starts above the floor may be named and not land in time: that no engine lets it
     land earlier is a claim too, and only a bound on its time, or on what is then, compares nothing.
@@ -449,30 +454,28 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
     found: list[Mistake] = []
     for name, event in case.events.items():
         assert record is not None  # of a case with events
-        if len(reference_events(case.scene, record, event)):
-            continue
         places: list[tuple[str, ...]] = [("events", name)]
-        if _falls_later(case.scene, reference, event):
-            bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
-            places = [("allow", bound) for bound in bounds]
-        what = f"never happens in {case.duration:g} s: nothing is compared"
         if _at_the_end(case.scene, record, event):
             what = (
                 f"comes at the last instant, {case.duration:g} s: whether it still happens is "
                 "rounding; take another duration"
             )
+        elif len(reference_events(case.scene, record, event)):
+            continue
+        else:
+            what = f"never happens in {case.duration:g} s: nothing is compared"
+        if _falls_later(case.scene, reference, event):
+            bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
+            places = [("allow", bound) for bound in bounds]
         found += [case.mistake(place, what) for place in places]
     return found
 
 
 def _at_the_end(scene: Scene, record: Trajectory, event: Event) -> bool:
-    """Whether the last row is the event's: by the mechanism's word, or as its quantity is zero."""
+    """Whether its quantity comes to zero in the last row, as the event has it, and at once."""
     u, small, pieces = _pieces(scene, record, event)
-    assert record.phase is not None
-    ended = record.ended[int(record.phase[pieces[-1][0]]) :]
-    if any(name in _names(scene, event) for name in ended):
-        return True
-    return event.crosses and _leaves(u[pieces[-1]], small) and _lands(u[pieces[-1]], small)
+    came = _phases(scene, record, event, u, small, pieces)[-1].comes
+    return {"stays zero": abs(came), "leaves zero": 0.0}.get(event.rule, came) > AT_ONCE * small
 
 
 def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:

@@ -55,11 +55,16 @@ class Timing:
             )
         return self._sure[event, step]
 
-    def miscounted(self, event: str, count: int, step: float) -> float:
-        """By how many an engine's events are fewer than such steps tell, or more than there are."""
+    def miscounted(self, event: str, count: int, step: float) -> float | None:
+        """By how many an engine's events are fewer than such steps tell, or more than there are.
+
+        None where they are fewer than there are, and such steps tell no more of them for sure.
+        """
         most = len(self.events[event])
-        least = most if count >= most else len(self.surely(event, step))
-        return float(max(least - count, count - most, 0))
+        if count >= most:
+            return float(count - most)
+        missing = len(self.surely(event, step)) - count
+        return float(missing) if missing > 0 else None
 
     def partners(self, event: str, times: Array) -> NDArray[np.int64]:
         """Which of the reference's events an engine's, at these times [s], are compared with.

@@ -58,7 +58,9 @@ def judge(
 
 
 def _miscounted(trial: Trial, samples: Samples, event: str) -> float:
-    return trial.timing.miscounted(event, len(samples[f"{event}.time"]), trial.step)
+    """By how many the counts differ; what such steps cannot tell is worse than none."""
+    off = trial.timing.miscounted(event, len(samples[f"{event}.time"]), trial.step)
+    return 0.5 if off is None else off
 
 
 def _largest(trial: Trial, samples: Samples, name: str) -> float:
@@ -72,7 +74,7 @@ def _largest(trial: Trial, samples: Samples, name: str) -> float:
 
 
 def _count(trial: Trial, event: str, worst: Begun) -> Comparison:
-    """Whether the event happens as often as in the reference, as far as steps can tell."""
+    """Whether the event happens as often as in the reference; refused where steps cannot tell."""
     name, timing = f"{event}.count", worst.trial.timing
     found = worst.samples[f"{event}.time"]
     most = len(timing.events[event])
@@ -80,6 +82,8 @@ def _count(trial: Trial, event: str, worst: Begun) -> Comparison:
     off = timing.miscounted(event, len(found), trial.step)
     short = f" (of which {least} last long enough for this step)" if least < most else ""
     why = f"reference {most}{short}, engine {len(found)}"
+    if off is None:
+        return row(trial, name, REFUSED, because=f"adapter: {why}: a smaller step tells more")
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 

@@ -1,0 +1,395 @@
+"""From which side a quantity comes to zero: two rules of one quantity share no instant."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from given import scenes
+from given.otherwise import otherwise
+from given.scenes import typed
+
+from textmech.cases.case import Case, Event
+from textmech.cases.fields.event import Rule
+from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
+from textmech.cases.trajectory import VX, Array, Trajectory
+from textmech.reference.solve import solve
+from textmech.reports.compare.events import times as event_times
+from textmech.reports.compare.events.states import mistaken
+from textmech.reports.compare.events.times import Known, engine_events, reference_events
+
+FALLS: Rule = "falls to zero"
+RISES: Rule = "rises to zero"
+STAYS: Rule = "stays zero"
+LEAVES: Rule = "leaves zero"
+APART: tuple[tuple[Rule, Rule], ...] = (
+    (FALLS, RISES), (STAYS, LEAVES), (FALLS, LEAVES), (RISES, LEAVES)
+)  # fmt: skip
+"""Rules of which one forbids the other; what stays at zero may fall or rise to it."""
+
+
+def shared(case: Case, record: Trajectory, name: str) -> set[float]:
+    """The instants at which two rules of a quantity, that exclude each other, both happen."""
+    happens = {
+        rule: set(reference_events(case.scene, record, Event(name, rule)).tolist())
+        for rule in (FALLS, RISES, STAYS, LEAVES)
+    }
+    return {t for one, other in APART for t in happens[one] & happens[other]}
+
+
+# Drawn records of a slip, whose events are known as they are drawn.
+
+RAIL = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {particle: {mass: 1}}}
+  joints: {r: {slide: [ground.O, b.center], along: [1, 0], dry_friction: {kinetic: 0.1}}}
+  FORCES
+initial: {b: {x: START, vx: SPEED}}
+allow: {b.x: 1.0e-3}
+EVENTS
+"""
+SPRING = "forces: {s: {spring: [ground.O, b.center], stiffness: 10, rest_length: 0}}"
+
+
+def rail(
+    folder: Path, speed: float, start: float = 0.0, forces: str = "", lasts: float = 12.0
+) -> Case:
+    text = RAIL.replace("SPEED", repr(speed)).replace("START", repr(start))
+    text = text.replace("  FORCES\n", f"  {forces}\n" if forces else "")
+    text = text.replace("EVENTS", "events: {it: {r.slip: falls to zero}}")
+    return typed(folder, text, tail=f"duration: {lasts}\nsamples: 25\n")
+
+
+ROWS = np.linspace(0.0, 1.0, 9)
+SHAPES: dict[str, tuple[Array, str]] = {
+    "lands": (1 - ROWS, "r stops"),
+    "unnamed": (1 - ROWS**2, ""),
+    "leaves": (ROWS, ""),
+    "hops": (4 * ROWS * (1 - ROWS), "r stops"),
+    "passes": (1 - 2 * ROWS, ""),
+    "strikes": (1 + ROWS, "other lands"),
+    "rests": (0 * ROWS, "r slips"),
+    "trembles": (1e-13 * np.cos(40 * ROWS), "r slips"),
+}
+"""u over a piece, times an amplitude of either sign, and what ends it."""
+TINY = {"lands", "hops"}  # which the mechanism names however small they are
+
+
+def drawn(seed: int) -> tuple[Trajectory, dict[Rule, list[float]]]:
+    """A record of up to 30 pieces, and when its slip falls and rises to zero."""
+    random = np.random.default_rng(seed)
+    times, u, phase, ended = list[Array](), list[Array](), list[Array](), list[str]()
+    happens: dict[Rule, list[float]] = {FALLS: [], RISES: []}
+    t, count = 0.0, int(random.integers(3, 30))
+    for k in range(count):
+        kind = str(random.choice([*SHAPES]))
+        shape, word = SHAPES[kind]
+        size = 10.0 ** random.uniform(-14, -11 if random.random() < 0.3 else 0)
+        size = float(random.choice([-1, 1]) * (size if kind in TINY else random.uniform(0.5, 2)))
+        lasts = float(random.uniform(0.1, 1.0))
+        times.append(t + lasts * ROWS)
+        u.append(size * shape)
+        phase.append(np.full(len(ROWS), len(ended)))
+        ended.append(word)
+        if random.random() < 0.2:  # what ends as it begins
+            times.append(np.full(2, t + lasts))
+            u.append(random.uniform(-1, 1, 2))
+            phase.append(np.full(2, len(ended)))
+            ended.append("other lands")
+        if kind == "passes":
+            happens[FALLS if size > 0 else RISES].append(t + lasts / 2)
+        elif kind in ("lands", "unnamed", "hops") and k < count - 1:
+            happens[FALLS if size > 0 else RISES].append(t + lasts)
+        t += lasts
+    states = np.zeros((sum(map(len, u)), 6))
+    states[:, VX] = np.concatenate(u)
+    numbers = np.concatenate(phase).astype(np.int64)
+    found = Trajectory(np.concatenate(times), {"b": states}, {}, phase=numbers, ended=(*ended,))
+    return found, happens
+
+
+def misread(case: Case, module: Any = event_times, seeds: int = 150) -> list[int]:
+    """The seeds of the records whose slip is not read as it was drawn."""
+    found = list[int]()
+    for seed in range(seeds):
+        record, happens = drawn(seed)
+        for rule, wanted in happens.items():
+            read = module.reference_events(case.scene, record, Event("r.slip", rule))
+            if len(read) != len(wanted) or not np.allclose(read, wanted, rtol=0, atol=1e-9):
+                found.append(seed)
+    return found
+
+
+PLANTED = {
+    "what rises to zero by its name falls to it": (
+        "comes = float(values[last]) if ended", "comes = abs(float(values[last])) if ended"
+    ),
+    "a side that is asked of the first row": ("values[last]) if ended", "values[0]) if ended"),
+    "a hop below what counts has no side": ("if np.any(clear) else np.argmax(np.abs(values))", ""),
+}  # fmt: skip
+
+
+def test_a_slip_comes_to_zero_from_the_side_where_it_was(tmp_path: Path) -> None:
+    case = rail(tmp_path, 1.0)
+    assert misread(case) == []
+    for seed in range(150):
+        record, _ = drawn(seed)
+        assert shared(case, record, "r.slip") == set()
+
+
+@pytest.mark.mutant("what rises to zero by its name falls to it, or is asked of another row")
+@pytest.mark.parametrize("planted", PLANTED)
+def test_a_side_that_is_not_asked_is_seen(planted: str, tmp_path: Path) -> None:
+    was, now = PLANTED[planted]
+    if not now:
+        now = "if np.any(clear) else 0"
+    assert misread(rail(tmp_path, 1.0), otherwise(event_times, was, now), 40) != []
+
+
+# What only decays to zero does not come to it where something else happens.
+
+
+def decaying(law: Any, after: float = 0.0) -> Trajectory:
+    """A rate by a law until 2 s, where another thing happens, and what it is from then on."""
+    t = np.linspace(0.0, 2.0, 81)
+    states = np.zeros((89, 6))
+    states[:, VX] = [*law(t), *(np.full(8, after))]
+    times = np.append(t, np.linspace(2.0, 3.0, 8))
+    phase = np.repeat([0, 1], [81, 8])
+    return Trajectory(times, {"b": states}, {}, phase=phase, ended=("other lands",))
+
+
+@pytest.mark.mutant("what has decayed below what counts has come to zero")
+def test_what_has_only_decayed_has_not_come_to_zero(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = rail(tmp_path, 1.0)
+    decays = decaying(lambda t: np.exp(-16 * t), math.exp(-32))
+    for rule in (FALLS, STAYS):
+        assert len(reference_events(case.scene, decays, Event("b.vx", rule))) == 0
+        for n in range(1, 7):  # as a joint comes to rest that is driven by such a law
+            flat = decaying(lambda t, n=n: (1 - t / 2) ** n)
+            assert reference_events(case.scene, flat, Event("b.vx", rule)).tolist() == [2.0]
+    monkeypatch.setattr(event_times, "FLAT", np.inf)
+    assert len(reference_events(case.scene, decays, Event("b.vx", FALLS))) == 1
+
+
+# Scenes that a person types.
+
+
+def happened(case: Case, name: str, rule: Rule) -> list[float]:
+    record = solve(case).trajectory.record
+    assert record is not None
+    assert shared(case, record, name) == set()
+    return reference_events(case.scene, record, Event(name, rule)).tolist()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_what_friction_stops_comes_from_its_own_side(way: float, tmp_path: Path) -> None:
+    """At 10 s, by 0.1 m/s²."""
+    case = rail(tmp_path, way)
+    assert happened(case, "r.slip", FALLS if way > 0 else RISES) == pytest.approx([10.0], abs=1e-9)
+    assert happened(case, "r.slip", RISES if way > 0 else FALLS) == []
+    (wrong, *others) = mistaken(case, solve(case).trajectory) or [None]
+    assert (wrong is None) == (way > 0)
+    assert others == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_what_swings_turns_from_either_side(way: float, tmp_path: Path) -> None:
+    """Every half period π/√10 s; it starts towards the spring's other end."""
+    case = rail(tmp_path, 0.0, 0.5 * way, SPRING, 3.5)
+    half = math.pi / math.sqrt(10.0)
+    odd, even = [half, 3 * half], [2 * half]
+    for name in ("r.slip", "b.vx"):
+        assert happened(case, name, FALLS) == pytest.approx(even if way > 0 else odd, abs=1e-9)
+        assert happened(case, name, RISES) == pytest.approx(odd if way > 0 else even, abs=1e-9)
+
+
+PRESSED = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {particle: {mass: 1}}}
+  joints: {r: {slide: [ground.O, b.center], along: [1, 0]}}
+  forces: {s: {spring: [ground.O, b.center], stiffness: 10, rest_length: 1, only: ONLY}}
+initial: {b: {x: START, vx: 0}}
+events: {it: {s.force: falls to zero}}
+allow: {b.x: 1.0e-3}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("only", "start", "rule", "other"),
+    [("compression", "0.5", RISES, FALLS), ("tension", "1.5", FALLS, RISES)],
+)
+def test_the_force_of_a_one_sided_spring_has_its_side(
+    only: str, start: str, rule: Rule, other: Rule, tmp_path: Path
+) -> None:
+    """It slackens after a quarter of its period, and never acts again."""
+    text = PRESSED.replace("ONLY", only).replace("START", start)
+    case = typed(tmp_path, text, tail="duration: 0.7\nsamples: 8\n")
+    quarter = math.pi / math.sqrt(10.0) / 2
+    assert happened(case, "s.force", rule) == pytest.approx([quarter], abs=1e-9)
+    assert happened(case, "s.force", other) == []
+
+
+TURNS = """\
+scene:
+  gravity: none
+  points: {O: [0, 0]}
+  bodies: {b: {rigid: {mass: 1, inertia: 2}}}
+  joints: {p: {pin: [ground.O, b.center], dry_friction: {kinetic: 0.5}}}
+initial: {p: {angle: 0, omega: -1}}
+events: {it: {p.slip: rises to zero}}
+allow: {b.angle: 1.0e-3}
+"""
+GLIDES = """\
+scene:
+  bodies: {b: {particle: {mass: 1}}}
+  contacts: {c: {between: [b, ground.floor], friction: 0.1}}
+initial: {b: {x: 0, y: 0, vx: -1, vy: 0}}
+events: {it: {c.slip: rises to zero}}
+allow: {b.x: 1.0e-3}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "name", "stops"),
+    [(TURNS, "p.slip", 4.0), (GLIDES, "c.slip", 1 / (0.1 * 9.80665))],
+)
+def test_pins_and_contacts_have_two_sides_too(
+    text: str, name: str, stops: float, tmp_path: Path
+) -> None:
+    case = typed(tmp_path, text, tail="duration: 11.0\nsamples: 11\n")
+    assert observe(case.scene, solve(case).trajectory, name)[0] == -1.0
+    assert happened(case, name, RISES) == pytest.approx([stops], abs=1e-9)
+    assert happened(case, name, FALLS) == []
+
+
+# Rows at the last instant.
+
+APEX = """\
+scene:
+  bodies: {b: {particle: {mass: 1}}}
+  contacts: {c: {between: [b, ground.floor], friction: 0, restitution: 1}}
+initial: {b: {x: 0, y: 0, vx: 0.1, vy: 9.80665}}
+events: {top: {b.vy: falls to zero}, lands: {c.gap: falls to zero}}
+allow: {b.x: 1.0e-3, top.count: 0.5}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("an event at the last instant, which has happened before, is not told")
+def test_what_comes_once_more_at_the_last_instant_is_a_mistake(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At 1 s and 3 s it is at the top: whether twice in 3 s is rounding."""
+    case = typed(tmp_path, APEX, tail="duration: 3.0\nsamples: 31\n")
+    motion = solve(case).trajectory
+    (mistake,) = mistaken(case, motion)
+    assert mistake.where == "events.top"
+    assert "comes at the last instant, 3 s" in mistake.what
+    later = typed(tmp_path, APEX, tail="duration: 3.1\nsamples: 31\n")
+    assert mistaken(later, solve(later).trajectory) == []
+    monkeypatch.setattr(event_times, "AT_ONCE", np.inf)
+    assert mistaken(case, motion) == []
+
+
+# All shipped cases, and random ones.
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name, case in scenes.SHIPPED.items() if case.events])
+def test_two_rules_of_a_quantity_of_a_shipped_case_share_no_instant(name: str) -> None:
+    case, record = scenes.EVERY[name], scenes.solved(name).trajectory.record
+    assert record is not None
+    asked = 0
+    for quantity, about in table(case.scene).items():
+        if about.field not in ("work", "attitude") and kept(case, record, quantity):
+            assert shared(case, record, quantity) == set()
+            asked += 1
+    assert asked >= 10
+
+
+def kept(case: Case, record: Trajectory, name: str) -> bool:
+    """Whether the reference's record has the quantity: accelerations it has not."""
+    try:
+        observe(case.scene, record, name)
+    except KeyError:
+        return False
+    return True
+
+
+MIRRORED = """\
+scene:
+  points: {{O: [0, 0]}}
+  planes: {{wall: {{at: [{wall!r}, 0], normal: [{back!r}, 0]}}}}
+  bodies: {{b: {{particle: {{mass: {mass!r}}}}}}}
+  joints: {{r: {{slide: [ground.O, b.center], along: [1, 0], dry_friction: {dry}}}}}
+  contacts: {{c: {{between: [b, ground.wall], friction: 0, restitution: {e!r}}}}}
+  forces:
+    s: {{spring: [ground.O, b.center], stiffness: {c!r}, rest_length: 0}}
+    p: {{push: b.center, sine: {{amplitude: [{F!r}, 0], angular_frequency: {w!r}}}}}
+initial: {{b: {{x: 0, vx: {v!r}}}}}
+events: {{it: {{r.slip: falls to zero}}, lands: {{c.gap: falls to zero}}}}
+allow: {{b.x: 1.0e-2}}
+"""
+
+
+MIRROR: tuple[tuple[Rule, Rule], ...] = (
+    (FALLS, RISES), (RISES, FALLS), (STAYS, STAYS), (LEAVES, LEAVES)
+)  # fmt: skip
+
+
+def mirrored(folder: Path, seed: int, way: float) -> Case:
+    """A particle with a spring, dry friction, a push and a wall; way: 1, or -1 to mirror it."""
+    random = np.random.default_rng(seed)
+    x = [round(float(each), 3) for each in random.uniform(0.2, 1.0, 8)]
+    forward, backward = (x[0], x[1]) if way > 0 else (x[1], x[0])
+    text = MIRRORED.format(
+        wall=way * 0.6 * x[2], back=-way, mass=x[3], e=x[4], c=30 * x[5], F=way * 6 * x[6],
+        w=20 * x[7], v=way * float(random.choice([-3.0, 3.0])),
+        dry=f"{{kinetic: {{forward: {forward!r}, backward: {backward!r}}}}}",
+    )  # fmt: skip
+    return typed(folder, text, tail="duration: 2.0\nsamples: 11\n")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+def test_what_falls_rises_in_the_mirror(seed: int, tmp_path: Path) -> None:
+    """Also through stick, blows and turns; and each engine's step reads the same."""
+    cases = [mirrored(tmp_path, seed, way) for way in (1.0, -1.0)]
+    records = [solve(case).trajectory.record for case in cases]
+    counts = 0
+    for name in ("r.slip", "b.vx", "b.x"):
+        for rule, other in MIRROR:
+            sides = list[Array]()
+            for case, record, each in zip(cases, records, (rule, other), strict=True):
+                assert record is not None
+                assert shared(case, record, name) == set()
+                sides.append(reference_events(case.scene, record, Event(name, each)))
+            counts += len(sides[0])
+            assert sides[0] == pytest.approx(sides[1], abs=1e-8)
+    assert counts >= 4
+
+
+@pytest.mark.parametrize("rule", [FALLS, RISES])
+def test_what_an_engine_leaves_at_rest_comes_from_its_side(rule: Rule, tmp_path: Path) -> None:
+    """It stops from below at 0.5 s, and then creeps by a thousandth."""
+    case, t = rail(tmp_path, 1.0), np.linspace(0.0, 2.0, 2001)
+    states = np.zeros((len(t), 6))
+    states[:, VX] = np.where(t < 0.5, 2 * t - 1, 1e-5 * np.sin(30 * (t - 0.5)))
+    found = engine_events(case.scene, Trajectory(t, {"b": states}, {}), Event("b.vx", rule), KNOWN)
+    assert found == pytest.approx([0.5] if rule == RISES else [], abs=1e-6)
+
+
+KNOWN = Known(0.02)
