@@ -11,8 +11,10 @@ from given.refused import refused
 from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
 from scipy.integrate import solve_ivp
 
+from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference import refusal
+from textmech.reference import solve as solving
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.refusal import refusals
@@ -161,6 +163,21 @@ def test_steps_that_shrink_are_told_with_what_can_be_done(
     (mistake,) = caught.value.mistakes
     begin = "the motion cannot be followed beyond t = 0.0003467 s: the steps shrink to nothing; "
     assert mistake.what.startswith(begin + words)
+
+
+@pytest.mark.mutant("a reference that finds no memory ends in a traceback")
+def test_what_finds_no_memory_is_told_with_its_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = scenes.typed(tmp_path, SPRING.replace("START", "-2"))
+
+    def moved(case: Case) -> None:
+        np.ones(2**50)  # of no machine
+
+    monkeypatch.setattr(solving, "_moved", moved)
+    mistake = refused(case)
+    assert (mistake.where, mistake.line > 1) == ("scene", True)
+    assert "needs more memory than its process may take (Unable to allocate 8.00 P" in mistake.what
 
 
 SLEIGH = """\
