@@ -35,7 +35,6 @@ PANEL = [
             "top_on_floor",
             "skew_chain",
             "running_gait",
-            "slider_crank",
         ),
         *("torsion_pendulum", "driven_wheel", "sliding_points", "hung_shapes"),
         *("stribeck_brake", "tethered_box", "rolling_sphere", "compass_walker"),
