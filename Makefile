@@ -32,13 +32,16 @@ test-all: test test-slow
 processors: $(READY)
 	$(VENV)/bin/python tests/processors.py -n auto --dist worksteal $(WHAT)
 
-# What a change of one file needs: its style and types, and the quick tests of its room.
+TUNED := mujoco.tuned pymunk.tuned
+# What a change of one file needs: its style and types, the quick tests of its room, and some shipped
+# cases that execute it, by their tuned engines.
 quick: $(LINTING)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright $$($(VENV)/bin/python tests/touched.py --files)
-	$(VENV)/bin/pytest -q -n auto -m "not slow" $$($(VENV)/bin/python tests/touched.py)
+	$(VENV)/bin/pytest -q -n auto -m "not slow" $(addprefix --textmech-engine=,$(TUNED)) \
+		$$($(VENV)/bin/python tests/touched.py)
 
 lint: $(LINTING)
 	$(VENV)/bin/ruff check .
@@ -46,12 +49,13 @@ lint: $(LINTING)
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright
 
-# How many of COUNT mistakes, drawn by chance and planted in a copy, the tests see at the first try.
+# How many of COUNT mistakes, drawn by chance and planted in a copy, the tests see at the first try;
+# with HOW="--quick --out FILE" what `make quick` would see.
 COUNT ?= 150
 SEED ?= 1
 mutants: $(READY)
 	$(INSTALL) '.[mutants]'
-	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED)
+	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED) $(HOW)
 
 # What a person waits for, in a fresh clone of the last commit: half an hour of an idle machine.
 speed: $(READY)

@@ -3,15 +3,14 @@
 An engine's package is imported when the engine is asked for, and not before.
 """
 
-import os
-import sys
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import nullcontext
 from functools import cache
 from importlib.metadata import Distribution, EntryPoint, entry_points
 from typing import Any, cast
 
 from .engine import Engine, Maker
-from .probe import error_text, guarded, unsound, why_not
+from .probe import error_text, guarded, restored, unsound, why_not
 
 GROUP = "textmech.engines"
 SETTINGS = ("shipped", "recommended", "tuned")  # what an engine may offer
@@ -108,11 +107,8 @@ def _found() -> Mapping[str, EntryPoint]:
 def _maker(name: str) -> Maker:
     point = _found()[name]
     why = why_not(point, SETTINGS) if foreign(name) else ""
-    before, depth = _folder(), sys.getrecursionlimit()
-    maker, error = (None, None) if why else guarded(point.load)
-    if before is not None and foreign(name):  # what it changes here would change what is asked for
-        os.chdir(before)
-        sys.setrecursionlimit(depth)
+    with restored() if foreign(name) else nullcontext():
+        maker, error = (None, None) if why else guarded(point.load)
     if why or error is not None:
         why = why or error_text(error)
         raise Broken(f"{name} ({point.value}) cannot be imported: {why}") from error
@@ -122,11 +118,3 @@ def _maker(name: str) -> Maker:
         what = f"its `offers` should be a tuple of {' and '.join(SETTINGS)}, is {offers!r}"
         raise Broken(f"{name} ({point.value}) is no engine: {what}")
     return cast(Maker, maker)
-
-
-def _folder() -> str | None:
-    """The working folder; None where it is gone."""
-    try:
-        return os.getcwd()
-    except OSError:
-        return None

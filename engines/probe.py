@@ -4,8 +4,10 @@ import multiprocessing
 import os
 import pickle
 import signal
-from collections.abc import Callable
-from contextlib import suppress
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from importlib.metadata import EntryPoint
 from math import isfinite
 from multiprocessing.connection import Connection
@@ -98,6 +100,37 @@ def guarded(call: Callable[[], Any]) -> tuple[Any, BaseException | None]:
         if _interrupted(error):
             raise KeyboardInterrupt from error
         return None, error
+
+
+@contextmanager
+def restored() -> Iterator[None]:
+    """Undo what an import changes of the working folder, the recursion limit and signals."""
+    folder, depth, handlers = _folder(), sys.getrecursionlimit(), _handlers()
+    try:
+        yield
+    finally:
+        if folder is not None:
+            os.chdir(folder)
+        sys.setrecursionlimit(depth)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+def _folder() -> str | None:
+    """The working folder; None where it is gone."""
+    try:
+        return os.getcwd()
+    except OSError:
+        return None
+
+
+def _handlers() -> dict[int, Any]:
+    """By signal, what Python does then; nothing in a thread, which may not set it."""
+    if threading.current_thread() is not threading.main_thread():
+        return {}
+    numbers = [getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
+    found = {number: signal.getsignal(number) for number in numbers if number is not None}
+    return {number: handler for number, handler in found.items() if handler is not None}
 
 
 def _interrupted(error: BaseException | None) -> bool:

@@ -41,7 +41,7 @@ DEPENDENT = 1e-2  # singular values below this part of the largest: the same, fo
 
 @contextmanager
 def bounded(case: Case) -> Iterator[None]:
-    """Turns what takes too long, or leaves the doubles, into CaseError."""
+    """Turns what takes too long or too much memory, or leaves the doubles, into CaseError."""
     scenes = () if case.states else apart(case.scene, case.system, case.events)
     laws = case.samples * sum(cost.laws(scene) for scene in scenes)
     try:
@@ -53,6 +53,14 @@ def bounded(case: Case) -> Iterator[None]:
         if endless.ways:
             found = case.mistake(_where(case, endless.among), what + _fewer(endless.among))
         raise CaseError([found]) from endless
+    except MemoryError as error:
+        more = f" ({error})" if str(error) else ""
+        what = (
+            f"the reference of {len(case.scene.bodies)} bodies and {len(case.scene.joints)} joints "
+            f"needs more memory than its process may take{more}; give fewer, or more memory, as by "
+            "TEXTMECH_MEMORY_LIMIT [GiB]"
+        )
+        raise CaseError([case.mistake(("scene",), what)]) from None  # its frames hold the arrays
     except (ArithmeticError, LinAlgError) as error:
         what = f"the numbers of this scene cannot be computed with ({error}); are the units right?"
         raise CaseError([case.mistake(("scene",), what)]) from error

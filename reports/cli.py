@@ -1,6 +1,5 @@
 """The command `textmech`: run, causes, advise, check, list, show, and what compares and shows."""
 
-import sys
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -36,12 +35,11 @@ def main() -> None:
     try:
         with aloud():
             code = _answered()
-        ending.deaf()
+        ending.ignore_signals()
     except (click.Abort, KeyboardInterrupt):
         tell(f"\ninterrupted: {done()}")
-        ending.deaf()
         code = ending.INTERRUPTED
-    sys.exit(code)
+    ending.end(code)
 
 
 def _answered() -> int | None:

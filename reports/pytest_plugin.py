@@ -402,17 +402,15 @@ class ComparisonItem(CaseItem):
         return self.key[2] in [Path(word).stem for word in _settings(self.config)]
 
     def row(self) -> "Comparison":
-        """Its row. Raises RowError where it has none, as without a reference."""
+        """Its row. Raises RowError where it has none."""
         from .output.committed import key_of
 
         report, stash = self.report(), self.session.stash
         if _ROWS not in stash:
             stash[_ROWS] = {key_of(row): row for row in report.comparisons}
         if self.key not in stash[_ROWS]:
-            name = self.case.name
             planned = "its engine told another way when it ran than when it was collected"
-            why = report.lost.get(name)
-            raise RowError(f"{name}: {planned if why is None else f'there is no reference: {why}'}")
+            raise RowError(f"{self.case.name}: {planned}")
         return stash[_ROWS][self.key]
 
     def reportinfo(self) -> tuple[Path, int, str]:

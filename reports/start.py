@@ -24,6 +24,5 @@ def main() -> None:
 
         command()
     except KeyboardInterrupt:
-        ending.deaf()
         sys.stderr.write("\ninterrupted: nothing was written\n")
-        sys.exit(ending.INTERRUPTED)
+        ending.end(ending.INTERRUPTED)

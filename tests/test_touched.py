@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import executed
 import pytest
 import touched
 from given.tree import FILES
@@ -21,10 +22,13 @@ def mirrored(name: str) -> set[str]:
         ("cases/four_bar.yaml", "tests/cases"),
     ],
 )
-def test_a_program_has_the_tests_of_the_nearest_folder(file: str, folder: str) -> None:
-    beside = {str(path.relative_to(touched.ROOT)) for path in (touched.ROOT / folder).glob("*.py")}
-    assert mirrored(file) == {name for name in beside if Path(name).name.startswith("test_")}
-    assert mirrored(file)
+def test_a_program_has_the_tests_of_its_folder_and_of_those_above(file: str, folder: str) -> None:
+    room, folders = Path("tests") / Path(file).parts[0], [Path(folder)]
+    while folders[-1] != room:
+        folders.append(folders[-1].parent)
+    tests = {test for each in folders for test in (touched.ROOT / each).glob("test_*.py")}
+    assert mirrored(file) == {str(test.relative_to(touched.ROOT)) for test in tests}
+    assert any(Path(name).parent == Path(folder) for name in mirrored(file))
 
 
 @pytest.mark.slow
@@ -58,6 +62,7 @@ def test_what_differs_is_printed_once_and_by_kind(
         *touched.ALWAYS,
         "tests/test_rooms.py",
         *mirrored("reports/batch/cache/key.py"),
+        *touched.cases([Path("reports/batch/cache/key.py")]),
     }
     touched.main("--files")
     assert capsys.readouterr().out.split() == ["reports/batch/cache/key.py", "tests/test_rooms.py"]
@@ -71,3 +76,43 @@ def test_where_nothing_differs_there_is_still_something_to_check(
     for words in ((), ("--files",)):
         touched.main(*words)
         assert capsys.readouterr().out.split() == list(touched.ALWAYS)
+
+
+@pytest.mark.parametrize(
+    ("files", "first"),
+    [
+        (["cases/four_bar.yaml"], "cases/four_bar.yaml"),
+        (["reference/systems/pendula/stopped_pendulum.py"], "cases/stopped_pendulum.yaml"),
+        (["reference/systems/walkers/compass_walker.py"], "cases/compass_walker.yaml"),
+    ],
+)
+def test_a_case_and_a_system_have_their_own_cases(files: list[str], first: str) -> None:
+    assert touched.cases([Path(file) for file in files])[0] == first
+
+
+def test_of_several_programs_each_has_a_case_as_long_as_there_is_room() -> None:
+    files = sorted(executed.read())[-40:]
+    chosen = touched.cases([Path(file) for file in files])
+    assert len(chosen) == len(set(chosen)) == touched.CASES
+    assert chosen[0] == executed.read()[files[0]][0]
+
+
+def test_what_is_said_to_be_executed_is_there() -> None:
+    known = executed.read()
+    for program, cases in known.items():
+        assert (touched.ROOT / program).is_file(), f"{program}: python tests/executed.py"
+        assert cases
+        assert all((touched.ROOT / case).is_file() for case in cases)
+    computing = [name for name in known if name.startswith(("reference/", "engines/"))]
+    assert len(computing) > 150
+
+
+def test_cases_are_chosen_by_what_they_add_for_their_cost() -> None:
+    ran = {
+        "a": ({"p": frozenset({"f", "g"})}, 1.0),
+        "b": ({"p": frozenset({"f", "g", "h"})}, 9.0),
+        "c": ({"p": frozenset({"h"})}, 2.0),
+        "d": ({"q": frozenset({"f"})}, 0.1),
+    }
+    assert executed.chosen("p", ran) == ["a", "c"]
+    assert executed.chosen("q", ran) == ["d"]

@@ -21,6 +21,7 @@ from functools import cache
 from pathlib import Path
 from threading import Lock
 
+import executed
 import limited
 import touched
 from drawn import Mistake
@@ -30,6 +31,7 @@ WORK = 90.0  # CPU s for the tests of one mistake
 EACH = 30.0  # CPU s of one test: it takes 1.5 s where it is sound
 WALL = 1800.0  # s: who waits without working for so long waits for ever
 STARTS = 60  # CPU s to import and to collect
+ENGINES = [f"--textmech-engine={name}" for name in executed.ENGINES]  # of cases
 NAME = "textmech"  # of the folder of a copy: as the package is called, so that it is imported
 
 
@@ -92,7 +94,7 @@ class Copy:
         }  # fmt: skip
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
         child = subprocess.Popen(
-            [*command, "-p", "limited", *words],
+            [*command, "-p", "limited", *ENGINES, *words],
             cwd=self.root, env={**os.environ, **beside}, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, start_new_session=True, preexec_fn=_bounded,
         )  # fmt: skip
@@ -136,6 +138,16 @@ def stages(file: str, root: Path) -> list[list[str]]:
     return [found[far] for far in sorted(found)]
 
 
+def quick_stages(file: str, root: Path) -> list[list[str]]:
+    """What `make quick` asks of a file: the tests of its folder, of those above, and some cases."""
+    path = Path(file)
+    folders: dict[Path, list[str]] = {}
+    for test in touched.mirror(path):
+        folders.setdefault(test.parent, []).append(str(test))
+    asked = [*folders.values(), touched.cases([path])]
+    return [names for names in asked if names]
+
+
 def _far(file: Path, test: Path, mirrors: set[Path]) -> int:
     """How unlikely it is that the test sees a mistake in the file, from 0."""
     text, module = _text(test), ".".join(file.with_suffix("").parts).removesuffix(".__init__")
@@ -172,19 +184,18 @@ def _alone(test: str) -> list[str]:
     return [test] if "::" in test else ["--collect-only", *([test] if test.endswith(".py") else [])]
 
 
-def tried(mistake: Mistake, copy: Copy, sound: Sound) -> Outcome:
-    """Plants it, asks the tests, and takes it out again."""
+def tried(mistake: Mistake, copy: Copy, sound: Sound, *, quick: bool = False) -> Outcome:
+    """Plants it, asks the tests, and takes it out again. quick: only what `make quick` asks."""
     was = (copy.root / mistake.file).read_text(encoding="utf-8")
     copy.write(mistake.file, mistake.source, 10**9 + 2 * mistake.number)
     try:
-        return _asked(mistake, copy, sound)
+        return _asked(copy, sound, (quick_stages if quick else stages)(mistake.file, copy.root))
     finally:
         copy.write(mistake.file, was, 10**9)
 
 
-def _asked(mistake: Mistake, copy: Copy, sound: Sound) -> Outcome:
+def _asked(copy: Copy, sound: Sound, waiting: list[list[str]]) -> Outcome:
     left, run, doubted = WORK, 0, list[str]()
-    waiting = stages(mistake.file, copy.root)
     while waiting:
         without = [f"--deselect={test}" for test in doubted]
         told = copy.run(["-m", "not slow", *without, *waiting[0]], left)

@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from ..mistake import NO_VALUE, listed, nearest
+from ..mistake import NO_VALUE, SHOWN, listed, nearest
 from .number import shown
 
 _SHAPES = {
@@ -34,7 +34,9 @@ def in_words(
     present = given if isinstance(given, Mapping) else {}
     absent = [key for key in keys if key not in present]  # no misspelt key means one that is there
     errors: list[dict[str, Any]] = [dict(e) for e in error.errors(include_url=False)]
-    misspelt = {hint for e in errors if (hint := _meant(e, keys, absent))}
+    unknown = [e["loc"][0] for e in errors if _unknown(e, keys)]
+    hints = {key: nearest(key, absent) for key in unknown[:SHOWN]}  # of more nobody reads them
+    misspelt = {hint.split("'")[1] for hint in hints.values() if "did you mean" in hint}
     lengths: dict[Any, int] = {}  # of fixed lists that are too short: each missing entry is told
     for e in errors:
         if e["type"] == "missing" and isinstance(e["loc"][-1], int):
@@ -47,7 +49,7 @@ def in_words(
         )
         for e in errors
         if not (e["type"] == "missing" and e["loc"][-1] in misspelt)
-        for loc, what in _said(e, keys, absent, lengths, elsewhere)
+        for loc, what in _said(e, keys, hints, lengths, elsewhere)
     ]
     return ValidationError.from_exception_data(error.title, details)
 
@@ -60,15 +62,10 @@ def _unknown(error: Mapping[str, Any], keys: Sequence[str]) -> bool:
     return error["type"] in ("extra_forbidden", "tuple_type")
 
 
-def _meant(error: Mapping[str, Any], keys: Sequence[str], absent: Sequence[str]) -> str | None:
-    hint = nearest(error["loc"][0], absent) if _unknown(error, keys) else ""
-    return hint.split("'")[1] if "did you mean" in hint else None
-
-
 def _said(
     error: Mapping[str, Any],
     keys: Sequence[str],
-    absent: Sequence[str],
+    hints: Mapping[Any, str],
     lengths: Mapping[Any, int],
     elsewhere: Mapping[str, str],
 ) -> Iterator[tuple[Any, str]]:
@@ -82,7 +79,7 @@ def _said(
     elif _unknown(error, keys) and loc[0] in elsewhere:
         yield loc, f"unknown key {loc[0]!r}; {elsewhere[loc[0]]}"
     elif _unknown(error, keys):
-        close = nearest(loc[0], absent)
+        close = hints.get(loc[0], "")
         yield loc, f"unknown key {loc[0]!r}{close if 'did you mean' in close else listed(keys)}"
     elif kind == "choice":
         yield from _choice(loc, value, **context)

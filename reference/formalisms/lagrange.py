@@ -18,6 +18,7 @@ from ..system import Array, Mode, Vector
 from .derivative import along
 
 LARGER = 4  # tries: with the last it is 1e18 rad/s, or m/s
+NUMBERS = 4_000_000  # of rates at once: 32 MB, of all pairs of 100 rates
 MOST = 1e6  # times the energy of what is driven: T is quadratic, so large rates cost no digits
 
 
@@ -111,10 +112,18 @@ def curvature(T: Callable[..., Any], t: float, q: Array, n: int) -> Array:
     """
     M, driven = _alone(T, t, q, n)
     widths = _even(M, float(np.max(M)) + MOST * driven, 1.0)
-    a, b = np.repeat(np.diag(widths), n, axis=1), np.tile(np.diag(widths), n)  # every pair of rates
-    both = T(t, q, np.hstack([a + b, a - b, b - a, -a - b]))
-    one, two, three, four = np.broadcast_to(both, 4 * n * n).reshape(4, n, n)
-    return (one - two - three + four) / (4.0 * np.outer(widths, widths))
+    rates, height = np.diag(widths), max(1, NUMBERS // (4 * n * n))
+    rows = [_mixed(T, t, q, rates[:, k : k + height], rates) for k in range(0, n, height)]
+    return np.concatenate(rows) / (4.0 * np.outer(widths, widths))
+
+
+def _mixed(T: Callable[..., Any], t: float, q: Array, first: Array, second: Array) -> Array:
+    """T(a + b) − T(a − b) − T(b − a) + T(−a − b) for the columns a of `first` and b of `second`."""
+    shape = first.shape[1], second.shape[1]
+    a, b = np.repeat(first, shape[1], axis=1), np.tile(second, shape[0])
+    values = T(t, q, np.hstack([a + b, a - b, b - a, -a - b]))
+    one, two, three, four = np.broadcast_to(values, 4 * shape[0] * shape[1]).reshape(4, *shape)
+    return one - two - three + four
 
 
 def inertia(system: Mode, t: float, q: Array, v: Array) -> Array:

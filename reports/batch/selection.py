@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import fields
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from ... import engines
 from ...cases.case import Case
@@ -15,7 +15,7 @@ from ...cases.language.check.engines import Engines
 from ...cases.language.document import read
 from ...cases.load import load
 from ...cases.mistake import CaseError, Mistake, nearest
-from ...engines.engine import Engine
+from ...engines.engine import Engine, Realised
 from ...reference.integrators.now import doing
 from ...reference.systems import SYSTEMS
 from ...reference.systems.states.stated import STATED
@@ -200,6 +200,8 @@ def _files(words: Sequence[str], taken: Set[str]) -> list[Path]:
             what = "is no file; own settings are one YAML file" if word else "has no name"
         elif file.exists() and not NAME.fullmatch(file.stem):
             what = "its name is its column's: letters, digits, - and _, please"
+        elif file.exists() and file.stem in get_args(Realised):
+            what = f"{file.stem!r} says how an engine realises a scene: rename the file"
         elif file.exists() and (file.stem in taken or file.stem in engines.SETTINGS):
             what = f"{file.stem!r} is a built-in setting: rename the file"
         elif other.resolve() != file.resolve():

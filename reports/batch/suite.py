@@ -4,20 +4,16 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
-from math import inf
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
-from ...cases.trajectory import Trajectory
-from ...engines.engine import Engine, Refusal
-from ...reference.solve import Solution, solve
+from ...engines.engine import Engine
+from ...reference.solve import Solution
 from ..compare.events.states import mistaken
-from ..compare.judge.compare import crashed
 from ..compare.judge.instants import of_reference
 from ..compare.judge.metric import round_to_floor
 from ..compare.judge.uncertified import failing, uncertified
 from ..compare.trial.book import producers
-from ..compare.trial.trial import Trial
 from ..data.coverage import countable
 from ..data.promised import answered
 from ..data.row import (
@@ -38,9 +34,10 @@ from .cache.store import Store, passing
 from .search.cause_rows import NONE, NOTHING
 from .search.causes import Known
 from .search.causes import causes as found_causes
+from .search.solving import solved
 from .search.why import Key, key_of
 from .selection import sound, told_apart
-from .task_results import Progress, Results
+from .task_results import Progress, Results, mistakes_of
 from .tasks import Pair
 from .trials import Tried, tried
 
@@ -62,7 +59,6 @@ class Report:
     cases: list[Case] = field(default_factory=list)
     solutions: dict[str, Solution] = field(default_factory=dict)
     causes: list[Cause] = field(default_factory=list)
-    lost: dict[str, str] = field(default_factory=dict)  # case → why it has no reference
     mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
     tried: list[Tried] = field(default_factory=list)
 
@@ -112,16 +108,13 @@ def measure(
         references = {name: solved.trajectory for name, solved in report.solutions.items()}
         for one in tried(paired, references, results):
             _take(one, report)
-        for pair in pairs:
-            if pair.case in report.cases and pair.case.name in report.lost:
-                _without_reference(pair, report)
         _explain(paired, results, report, search=causes, known=known)
         return report
 
 
 def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
     keys = {case.name: results.keys.solution(case) for case in cases}
-    found = results.of("references", _solved, {keys[case.name]: case for case in cases})
+    found = results.of("references", solved, {keys[case.name]: case for case in cases})
     answers = {case.name: found[keys[case.name]] for case in cases}
     report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
     report.cases = sound(cases, report.mistakes)
@@ -129,22 +122,17 @@ def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
         raise CaseError(report.mistakes)
     for case in report.cases:
         answer = answers[case.name]
-        report.equations[case.name] = set()
-        if isinstance(answer, Died):
-            report.lost[case.name] = answer.because
-            report.certificates.append(_no_certificate(case))
-        else:
-            report.solutions[case.name] = answer
-            report.equations[case.name] = set(answer.equations)
-            report.certificates += _certificates(case, answer)
-            report.instants += of_reference(case, answer.trajectory)
+        report.solutions[case.name] = answer
+        report.equations[case.name] = set(answer.equations)
+        report.certificates += _certificates(case, answer)
+        report.instants += of_reference(case, answer.trajectory)
 
 
 def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
     """The mistakes of a case that only solving finds."""
-    if isinstance(answer, CaseError):
-        return answer.mistakes
-    return [] if isinstance(answer, Died) else mistaken(case, answer.trajectory)
+    if isinstance(answer, Solution):
+        return mistaken(case, answer.trajectory)
+    return mistakes_of(case, answer)
 
 
 def _take(one: Tried, report: Report) -> None:
@@ -174,21 +162,6 @@ def _explain(
     report.comparisons = with_causes(report.comparisons, report.causes, moments)
 
 
-def _without_reference(pair: Pair, report: Report) -> None:
-    """Its rows say so: nothing can be compared."""
-    because = f"there is no reference: {report.lost[pair.case.name]}"
-    nothing = Trajectory(pair.case.times, {}, {})
-    trial = Trial(pair.case, nothing, pair.engine, Refusal("native", because))
-    report.comparisons += failing(crashed(trial, because), because).rows
-
-
-def _solved(case: Case) -> Solution | CaseError:
-    try:
-        return solve(case)
-    except CaseError as error:
-        return error
-
-
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:
     return [
         Certificate(
@@ -204,13 +177,6 @@ def _certificates(case: Case, solution: Solution) -> list[Certificate]:
         )
         for check in solution.checks
     ]
-
-
-def _no_certificate(case: Case) -> Certificate:
-    system = case.system or "generated"
-    return Certificate(
-        case.name, str(case.origin), system, "it is solved", inf, 0.0, None, "", FAILS
-    )
 
 
 # Causes in a row's last column: its instant, what is declared of it, and what cures it.

@@ -6,7 +6,8 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from ...cases.mistake import CaseError
+from ...cases.case import Case
+from ...cases.mistake import CaseError, Mistake
 from ..system.pool import Died, spread
 from .cache.fits import returned
 from .cache.key import Keys
@@ -112,6 +113,16 @@ class Gathering:
         together, self.waiting = self.waiting, {}
         self.keep(together)
         self.since = time.monotonic()
+
+
+def mistakes_of(case: Case, answer: object) -> list[Mistake]:
+    """Why the case has no reference, of what the task `solved` gave; empty if it has one."""
+    if isinstance(answer, CaseError):
+        return answer.mistakes
+    if not isinstance(answer, Died):
+        return []
+    what = f"the reference of {case.name} could not be solved: {answer.because}"
+    return [Mistake(case.source.file, 0, 0, "", what)]
 
 
 def _work(task: Any) -> float:

@@ -62,29 +62,29 @@ def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long
 def _checked(
     files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
 ) -> list[Checked]:
-    """Each of the files; solving is spread over processes where there are several."""
+    """Each of the files; solved in processes of their own, each with its share of the memory."""
     from ..batch.selection import choose_cases
     from ..compare.trial.work import too_long
     from ..show.progress import progress
     from ..system.pool import Died, local, spread
 
     found: dict[int, Checked] = {}
-    tasks: dict[int, tuple[str, Sequence[Case]]] = {}
+    tasks: dict[int, _Task] = {}
     for place, file in enumerate(files):
         try:
             cases = choose_cases([file], long=long)
             if wrong := too_long(cases, engines):
                 raise CaseError(wrong)
-            tasks[place] = file, cases
+            tasks[place] = _Task(file, cases)
         except CaseError as error:
             found[place] = Checked(file, [], error.mistakes, [])
-    if (jobs := min(jobs, len(tasks))) <= 1:
-        found |= {place: _solved(task) for place, task in tasks.items()}
-    else:
+    if tasks:
         places = list(tasks)
-        with progress() as told, local(jobs) as working:
+        alone = len(files) == 1  # no file is done before it
+        with progress(quiet=alone) as told, local(min(jobs, len(tasks))) as working:
+            told.watch(working)
             for index, one in spread(_solved, list(tasks.values()), working):
-                file, _ = tasks[place := places[index]]
+                file = tasks[place := places[index]].name
                 if isinstance(one, Died):
                     why = Mistake(file, 0, 0, "", f"could not be checked: {one.because}")
                     one = Checked(file, [], [why], [])
@@ -93,13 +93,21 @@ def _checked(
     return [found[place] for place in range(len(files))]
 
 
-def _solved(task: "tuple[str, Sequence[Case]]") -> Checked:
+@dataclass(frozen=True)
+class _Task:
+    """A file, by its name, and its cases."""
+
+    name: str
+    cases: "Sequence[Case]"
+
+
+def _solved(task: _Task) -> Checked:
     """Solves a file's cases: finds the mistakes and failed checks that only references show."""
     from ...reference.solve import solve
     from ..compare.events.states import mistaken
     from ..compare.judge.uncertified import otherwise
 
-    file, cases = task
+    file, cases = task.name, task.cases
     try:
         solved = [(case, solve(case)) for case in cases]
     except CaseError as error:

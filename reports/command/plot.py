@@ -64,8 +64,7 @@ def plot(
     name = report.cases[0].name
     found = motions(report).get(name)
     if found is None:
-        why = report.lost.get(name, "is a claim about states: nothing moves")
-        raise click.UsageError(f"{name} {why}")
+        raise click.UsageError(f"{name} is a claim about states: nothing moves")
     chosen = _quantity(quantity, report)
     rows = report.comparisons, report.rungs, report.steps
     save(picture(name, chosen, found, *rows), file)

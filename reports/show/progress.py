@@ -11,13 +11,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from ...reference.integrators.now import NOW, begun, time_left
 from .console import draw, tell
-
-if TYPE_CHECKING:
-    from ..batch.task_results import Progress
 
 FIRST = 2.0  # s before anything is said: most commands are done by then
 INTERVAL = 10.0  # s between two lines where no bar can be drawn
@@ -26,12 +22,12 @@ BAR = 20  # columns
 
 
 @contextmanager
-def progress(*, quiet: bool = False) -> "Iterator[Progress]":
+def progress(*, quiet: bool = False) -> "Iterator[Shown]":
     """A bar for each phase on the error stream; a line now and then where that is no terminal.
 
     quiet: nothing is said but `aloud`.
     """
-    shown = _Shown(_terminal() and not quiet, quiet=quiet)
+    shown = Shown(_terminal() and not quiet, quiet=quiet)
     _PHASES.append(shown)
     try:
         yield shown
@@ -64,7 +60,7 @@ def aloud(write: Callable[[str], object] | None = None) -> Iterator[None]:
             thread.join()
 
 
-class _Shown:
+class Shown:
     """The phase that is being shown, since when, and what was said of it last."""
 
     def __init__(self, terminal: bool, *, quiet: bool = False) -> None:
@@ -101,7 +97,7 @@ class _Shown:
         self.working = getattr(executor, "doing", tuple)
 
 
-_PHASES: list[_Shown] = []
+_PHASES: list[Shown] = []
 _ALOUD = threading.Lock()
 
 
@@ -132,7 +128,8 @@ def _at() -> str:
     if not _PHASES or not (working := _PHASES[-1].working()):
         return (_PHASES[-1].line.strip() if _PHASES else "") or NOW.line()
     phase = _PHASES[-1]
-    return f"{phase.line.strip()}; at {'; '.join(working)}" if not phase.terminal else working[0]
+    at, done = "; ".join(working), phase.line.strip()
+    return working[0] if phase.terminal else f"{done}; at {at}" if done else at
 
 
 def bar(what: str, done: int, total: int, rest: str, last: str) -> str:

@@ -1,12 +1,14 @@
 """How a command ends when it is told to: soon, with its workers, and with one line."""
 
+import atexit
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import Any
+from typing import Any, NoReturn
 
 INTERRUPTED = 130
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
@@ -23,13 +25,38 @@ def listen() -> None:
             signal.signal(number, _interrupt)
 
 
-def deaf() -> None:
-    """Nothing more is heard: as it shuts down Python takes its handlers back, and dies of a signal.
-
-    After an interruption, what hangs then is still ended after the time of grace.
-    """
+def ignore_signals() -> None:
+    """Ignore them from here on: what is decided is decided. Only `end` may follow."""
     for number in known_signals():
         signal.signal(number, signal.SIG_IGN)
+
+
+def end(code: int | None) -> NoReturn:
+    """End the process with this exit code (None: 0), whatever threads an engine has left.
+
+    Python itself would wait for each thread that is no daemon. Exit handlers and the last output,
+    which may hang too, have GRACE s.
+    """
+    ignore_signals()
+    try:
+        closing = threading.Thread(target=_close, daemon=True)
+        closing.start()
+        closing.join(GRACE)
+    finally:
+        os._exit(code or 0)
+
+
+def _close() -> None:
+    """Write out both streams, call all exit handlers, and write out what those have said."""
+    for call in (_flush, atexit._run_exitfuncs, _flush):
+        with suppress(Exception):
+            call()
+
+
+def _flush() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(Exception):  # closed, or its reader is gone
+            stream.flush()
 
 
 @contextmanager

@@ -2,14 +2,16 @@
 
 import os
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
+from textmech.cases.fields import words as wording
 from textmech.cases.find import find
 from textmech.cases.language import parse
 from textmech.cases.load import load
-from textmech.cases.mistake import CaseError
+from textmech.cases.mistake import SHOWN, CaseError, nearest
 
 SYSTEMS = {"pendulum": ("m", "l", "phi0"), "wheel": ("R",)}
 ENGINES = {"mujoco": ("shipped", "tuned"), "pymunk": ("shipped", "tuned"), "broken": None}
@@ -339,3 +341,24 @@ def test_of_an_engine_that_cannot_be_imported_no_setting_is_known(tmp_path: Path
     assert [case.name for case in load(path, systems=SYSTEMS, engines=ENGINES)] == ["case"]
     path.write_text(SOUND.replace("pymunk.shipped", "nobody.anything"))
     assert [case.name for case in load(path, systems=SYSTEMS)] == ["case"]  # nobody asks
+
+
+@pytest.mark.mutant("each of very many unknown keys is looked up among the known ones")
+def test_of_very_many_unknown_keys_only_those_that_are_shown_are_looked_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To compare a key with all others takes a millisecond, and a file may have 20 000."""
+    asked = list[str]()
+
+    def noted(word: str, known: Iterable[str]) -> str:
+        asked.append(word)
+        return nearest(word, known)
+
+    monkeypatch.setattr(wording, "nearest", noted)
+    file = tmp_path / "many.yaml"
+    file.write_text("\n".join([*(f"samples{k}: 1" for k in range(500)), "titel: x"]))
+    with pytest.raises(CaseError) as caught:
+        load(file)
+    assert len([m for m in caught.value.mistakes if "unknown key" in m.what]) == 501
+    assert len(asked) == SHOWN
+    assert "unknown key 'samples0'; did you mean 'samples'?" in str(caught.value)

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from given.planning import NATIVE, begun, pair, planned
 from given.scenes import SHIPPED
+from ruamel.yaml import YAML
 
 from textmech import engines
 from textmech.engines.engine import Engine, Plan, Tunable
@@ -149,3 +150,10 @@ def test_text() -> None:
         as_text(options) == "{pair: {solref: [2h, 1.0e-09]}, settled: true, max_bias: .inf, n: 3}"
     )
     assert short_value([1e6, 1e-9, "-1/h", 0.0]) == "1e6 1e-9 -1/h 0"
+
+
+@pytest.mark.mutant("1.25e-05 is pasted as 1.25.0e-05")
+@pytest.mark.parametrize("value", [1.25e-05, 1e-05, 2e22, 0.5, 3.0, float("inf"), -float("inf")])
+def test_a_pasted_number_is_read_as_the_same(value: float) -> None:
+    (name, text) = as_text({"softness": value}).strip("{}").split(": ")
+    assert (name, YAML(typ="safe", pure=True).load(text)) == ("softness", value)

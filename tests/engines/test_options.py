@@ -90,6 +90,10 @@ IN_GROUPS: list[tuple[dict[str, Any], str]] = [
         "mujoco.each.wall.solrf: unknown option; did you mean 'solref'?",
     ),
     (
+        {"each": {"../x": {"solref": [0.02, 1.0]}}},
+        "mujoco.each: '../x' can be the name of no contact and no joint",
+    ),
+    (
         {"each": {"wall": [0.02, 1.0]}},
         "mujoco.each.wall: should be a map of solreflimit, solimplimit, solref, solimp, "
         "solreffriction, margin, is [0.02, 1.0]",

@@ -1,6 +1,7 @@
 """Whatever an engine's package does while it is imported and made: it is told, nobody dies."""
 
 import os
+import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -161,3 +162,13 @@ def test_what_it_prints_is_not_in_the_output(
     assert said.out == ""
     assert "a banner" in said.err
     assert "and from C" in said.err
+
+
+@pytest.mark.mutant("an engine's import takes away how a run is ended")
+def test_what_an_import_changes_of_the_process_is_undone(tmp_path: Path) -> None:
+    before = Path.cwd(), sys.getrecursionlimit(), signal.getsignal(signal.SIGINT)
+    with probe.restored():
+        os.chdir(tmp_path)
+        sys.setrecursionlimit(before[1] + 1)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    assert (Path.cwd(), sys.getrecursionlimit(), signal.getsignal(signal.SIGINT)) == before

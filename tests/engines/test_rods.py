@@ -11,8 +11,10 @@ import pytest
 from given import rods, scenes
 from given.planning import TUNED, moved, planned
 
+from textmech.cases.scene import Anchor
 from textmech.engines.mujoco.model import loops
 from textmech.engines.mujoco.model import rods as bars
+from textmech.engines.mujoco.model.tree import place
 from textmech.engines.mujoco.read import readout
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
@@ -117,3 +119,26 @@ def test_pymunk_knows_no_sign_of_a_rod_s_force(tmp_path: Path) -> None:
     case = scenes.typed(tmp_path, rods.CHAIN)
     plan = planned(TUNED["pymunk"], case.scene, first(solve(case).trajectory))
     assert {"left.force", "chain.force"} <= plan.withheld.keys()
+
+
+@pytest.mark.mutant("a massless rod begins at half of its speed")
+def test_a_rods_bar_begins_where_its_ends_are_and_as_fast(tmp_path: Path) -> None:
+    """Each end's place and velocity are those of the point that it holds."""
+    case = scenes.typed(tmp_path, rods.CHAIN, tail=scenes.tail(1.0, 11))
+    start = {name: (0.3 * k, -0.2 * k * k, 0.1 * k, 0.7, -0.4 * k, 0.5 + k)
+             for k, name in enumerate(case.scene.bodies, start=1)}  # fmt: skip
+    scene, begun = bars.with_rods(case.scene, start)
+    held = bars.in_tree(case.scene)
+    assert held
+    for rod in held:
+        bar = bars.called(rod.name)
+        for end, point in (("start", rod.a), ("end", rod.b)):
+            at = place(scene, Anchor(bar, end), begun)
+            wanted = place(case.scene, point, start)
+            along = np.subtract(place(scene, Anchor(bar, "end"), begun),
+                                place(scene, Anchor(bar, "start"), begun))[:2]  # fmt: skip
+            assert at[:2] == pytest.approx(wanted[:2], abs=1e-12)
+            mean = np.add(place(case.scene, rod.a, start), place(case.scene, rod.b, start)) / 2
+            assert begun[bar][3:5] == pytest.approx(mean[2:], abs=1e-12)
+            across = np.subtract(at, wanted)[2:] @ [-along[1], along[0]]
+            assert across == pytest.approx(0.0, abs=1e-12)  # along it its ends are one length apart

@@ -39,7 +39,8 @@ def textmech(*words: object, folder: Path | None = None) -> subprocess.Completed
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
         patch.setattr(sys, "argv", line := ["textmech", *map(_argument, words)])
         patch.setattr(ending, "listen", lambda: None)
-        patch.setattr(ending, "deaf", lambda: None)
+        patch.setattr(ending, "ignore_signals", lambda: None)
+        patch.setattr(ending, "end", sys.exit)
         patch.setattr(done, "DONE", [])
         patch.setattr(progress, "FIRST", math.inf)  # no line more where a machine is slow
         if folder:

@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
 from textmech.reference import refusal
+from textmech.reference import solve as solving
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.motion.stuck import Stuck
 from textmech.reference.refusal import refusals
@@ -208,6 +209,21 @@ def test_what_is_advised_against_too_sharp_a_law_helps(tmp_path: Path) -> None:
     smoother = solve(heavy(tmp_path, "0.5", "100"))
     assert smoother.holds
     assert smoother.trajectory.states["b"][-1, 0] == pytest.approx(exact, abs=1e-6)
+
+
+@pytest.mark.mutant("a reference that finds no memory ends in a traceback")
+def test_what_finds_no_memory_is_told_with_its_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = scenes.typed(tmp_path, SPRING.replace("START", "-2"))
+
+    def moved(case: Case) -> None:
+        np.ones(2**50)  # of no machine
+
+    monkeypatch.setattr(solving, "_moved", moved)
+    mistake = refused(case)
+    assert (mistake.where, mistake.line > 1) == ("scene", True)
+    assert "needs more memory than its process may take (Unable to allocate 8.00 P" in mistake.what
 
 
 SLEIGH = """\

@@ -2,13 +2,19 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import fields, replace
+from types import SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from given import faulty, mistaken
 from given.command import textmech
 
 from textmech import engines
+from textmech.cases.case import Case
+from textmech.reports.compare import adapter_check
+from textmech.reports.data.row import AGREES, DEVIATES, Comparison
 
 
 class Bare(faulty.Faulty):
@@ -102,3 +108,22 @@ def test_an_engine_that_cannot_be_made_says_why(monkeypatch: pytest.MonkeyPatch)
     found, code = asked("faulty")
     assert (code, found["setting"]) == (1, None)
     assert found["marks"][0]["what"].startswith("faulty cannot be used: its version should be")
+
+
+@pytest.mark.mutant("what deviates as declared is told of all others")
+def test_of_a_claim_about_states_what_deviates_is_told(
+    moving: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One quantity agrees, one deviates as the case declares, and the audit agrees."""
+    row = Comparison(**dict.fromkeys((f.name for f in fields(Comparison)), ""))  # type: ignore
+    agrees = replace(row, verdict=AGREES, ratio=0.5, because="it is right")
+    deviates = replace(row, verdict=DEVIATES, ratio=9.0, because="it is soft")
+    outcome = SimpleNamespace(rows=[agrees, agrees, deviates], samples={})
+    monkeypatch.setattr(adapter_check, "answered", lambda *_: outcome)
+    for name in ("solve", "first", "Trial", "climbed"):
+        monkeypatch.setattr(adapter_check, name, Mock())
+    monkeypatch.setattr(adapter_check.states, "ways", lambda *_: [faulty.NATIVE])
+    monkeypatch.setattr(adapter_check.states, "rung", Mock())
+    attempt = adapter_check.Attempt(adapter_check.Grade("states", ""), moving, faulty.Faulty())
+    found = adapter_check._states(attempt)
+    assert (found.outcome, found.what) == ("works", "1 quantities; but it is soft")

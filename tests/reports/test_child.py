@@ -23,8 +23,7 @@ try:
     with passing("textmech-run-") as folder:
         child.run([sys.executable, "-c", {program!r}], heard={heard!r})
 except KeyboardInterrupt:
-    termination.deaf()
-    sys.exit(130)
+    termination.end(130)
 """
 PROGRAM = """\
 import os

@@ -2,9 +2,12 @@
 
 import os
 import re
+import signal
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from given.command import NEW, process, textmech
 
@@ -12,6 +15,7 @@ from textmech.cases.case import Case
 from textmech.reference import solve as solving
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.output import write
+from textmech.reports.system import limit
 
 
 @pytest.fixture(autouse=True)
@@ -300,6 +304,33 @@ def test_several_files_are_checked_at_once_in_their_order(tmp_path: Path) -> Non
     assert done.returncode == 2
     assert done.stdout == "b.yaml: 1 case, no mistakes\na.yaml: 1 case, no mistakes\n"
     assert "c.yaml:1:1: tittle: unknown key 'tittle'" in done.stderr
+
+
+def eats(case: Case) -> Any:
+    return np.ones(2**28)  # 2 GiB
+
+
+def dies(case: Case) -> Any:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+@pytest.mark.mutant("a reference may take all of the memory")
+@pytest.mark.parametrize("words", [("check",), ("run", "--no-cache"), ("advise", "--no-cache")])
+@pytest.mark.parametrize(
+    ("moved", "what"),
+    [(eats, "needs more memory than its process may take"), (dies, "the process died (SIGKILL)")],
+    ids=["eats", "dies"],
+)
+def test_a_reference_that_is_lost_is_a_mistake_of_its_case(
+    new: Path, words: Sequence[str], moved: Any, what: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(limit.MEMORY, "1")  # GiB
+    monkeypatch.setattr(solving, "_moved", moved)
+    done = textmech(*words, new)
+    assert done.returncode == 2, done.stdout
+    assert f"{new}" in done.stderr
+    assert what in done.stderr
+    assert done.stderr.endswith("1 mistake; nothing was written\n")
 
 
 @pytest.mark.slow

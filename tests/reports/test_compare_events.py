@@ -168,3 +168,16 @@ def test_what_is_beside_an_event_plays_no_part_in_an_order(
     assert order(made) == pytest.approx(1.0, abs=0.01)
     was = "        away=trial.away(AWAY * max(climbed))[keep],\n"
     assert order(made, otherwise(comparing, was, "")) != pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.mutant("a missing event is judged the other way round")
+@pytest.mark.parametrize(
+    ("sure", "words"),
+    [(2, "engine: the event never happens"), (0, "adapter: none is found, and with a step of")],
+)
+def test_a_missing_event_is_the_engines_only_if_its_step_would_tell(
+    sure: int, words: str, trial: Make, stopping: Case, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Timing, "surely", lambda *_: np.arange(sure))
+    found = row(stopped(trial, stopping, stops=(9.0,)), "stops.time")
+    assert said(found).startswith(f"refused: {words}")

@@ -300,3 +300,13 @@ def test_what_may_be_far_from_its_limit_is_not_the_textbooks_by_chance() -> None
 def test_without_exponents_no_limit_is_told() -> None:
     found = study(ladder(p=1), REFERENCE, exponents=(), allow=1e-2, floor=1e-13)
     assert (found.verdict, found.limit) == (FALLS, None)
+
+
+@pytest.mark.mutant("three steps are enough for a verdict on sizes alone")
+@pytest.mark.parametrize("sizes", [[1e-4, 2e-4, 4e-4], [1e-3, 1e-3, 1e-3]])
+def test_three_steps_are_too_few_for_sizes_alone(sizes: list[float]) -> None:
+    """Three orders need four; with four the same sizes have a verdict."""
+    few = convergence._Size(sizes)
+    assert (few.verdict, few.orders) == (UNSETTLED, convergence.NO_ORDER)
+    more = convergence._Size([*sizes, sizes[-1] * sizes[-1] / sizes[-2]])
+    assert more.verdict == (STAYS if sizes[0] == sizes[-1] else FALLS)

@@ -105,39 +105,67 @@ def test_killed_it_leaves_no_workers(run: subprocess.Popen[str], tmp_path: Path)
 
 
 SHUTTING = """\
+import atexit
 import os
 import signal
+import sys
+import threading
+import time
 
 from textmech.reports import cli
 
 
+def forever():
+    while True:
+        time.sleep(3600)
+
+
 class Late:
-    def __del__(self):  # when Python has taken its handlers back
-        os.kill(os.getpid(), signal.SIGINT)
+    def __del__(self):
+        forever()
 
 
 def told(**_):
+    sys.stdout.write("the last word")  # which waits to be written out
     {ends}
 
 
-late, cli.command = Late(), told
+{leaves}
+cli.command = told
 cli.main()
 """
+ENDS = [("raise KeyboardInterrupt", 130), ("return 0", 0), ("return 1", 1), ("raise OSError", 2)]
+LEAVES = {
+    "a signal as it ends": "atexit.register(os.kill, os.getpid(), signal.SIGINT)",
+    "a thread": "threading.Thread(target=forever).start()",
+    "an exit handler": "atexit.register(forever)",
+    "an object": "late = Late()",
+}
 
 
-@pytest.mark.parametrize(
-    ("ends", "code"),
-    [("raise KeyboardInterrupt", 130), ("return 0", 0), ("return 1", 1), ("raise OSError", 2)],
-)
-def test_told_while_python_shuts_down_it_ends_as_it_would(ends: str, code: int) -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", SHUTTING.format(ends=ends)],
+def shut(leaves: str, ends: str) -> subprocess.CompletedProcess[str]:
+    """A command that ends so, where an engine's import has left something behind."""
+    return subprocess.run(
+        [sys.executable, "-c", SHUTTING.format(leaves=leaves, ends=ends)],
         capture_output=True,
         text=True,
         check=False,
         timeout=60,
     )
-    assert done.returncode == code, done.stderr
+
+
+@pytest.mark.parametrize(("ends", "code"), ENDS)
+def test_told_while_it_shuts_down_it_ends_as_it_would(ends: str, code: int) -> None:
+    done = shut(LEAVES["a signal as it ends"], ends)
+    assert (done.returncode, done.stdout) == (code, "the last word"), done.stderr
+
+
+@pytest.mark.mutant("a command that has finished waits for a thread that an engine has left")
+@pytest.mark.parametrize("left", LEAVES)
+def test_what_an_engine_leaves_behind_is_not_waited_for(left: str) -> None:
+    """Neither by the user nor by a signal, which would be ignored by then."""
+    done = shut(LEAVES[left], "return 1")
+    assert (done.returncode, done.stdout) == (1, "the last word"), done.stderr
 
 
 EARLY = """\

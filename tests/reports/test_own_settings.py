@@ -63,6 +63,7 @@ def test_the_book_is_asked_by_name_or_where_nothing_is_named(
     ("name", "words"),
     [
         ("shipped.yaml", "built-in setting"),
+        ("law.yaml", "'law' says how an engine realises a scene"),
         ("other/coarse.yaml", "already has the name 'coarse'"),
         ("=cmd().yaml", "letters, digits"),
         ("a\nb.yaml", "letters, digits"),

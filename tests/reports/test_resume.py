@@ -15,6 +15,7 @@ from textmech.reports.batch import suite
 from textmech.reports.batch import tasks as unit
 from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.search import solving
 from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge.compare import Outcome
 from textmech.reports.compare.trial import run as rung
@@ -52,7 +53,7 @@ def done(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[[], dict[s
 
         return called
 
-    monkeypatch.setattr(suite, "solve", noted(suite.solve, "solve"))
+    monkeypatch.setattr(solving, "solve", noted(solving.solve, "solve"))
     monkeypatch.setattr(unit, "compare", noted(unit.compare, "compare"))
     monkeypatch.setattr(rung, "_run", noted(rung._run, "run"))
 

@@ -19,13 +19,13 @@ from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine, Realised
 from textmech.reference.solve import Solution
 from textmech.reports.batch import suite
+from textmech.reports.batch.search import solving
 from textmech.reports.batch.search.cause_rows import NOTHING
 from textmech.reports.batch.suite import Report
 from textmech.reports.batch.trials import Tried
 from textmech.reports.compare.judge.compare import Outcome
 from textmech.reports.compare.trial.trial import Trial
-from textmech.reports.data.row import AGREES, DIVERGED, FAILS, Cause, Comparison
-from textmech.reports.output import write
+from textmech.reports.data.row import AGREES, DIVERGED, FAILS, Cause
 
 Make = Callable[..., Trial]
 
@@ -122,28 +122,24 @@ def exits(case: Case) -> Solution:
 @pytest.mark.parametrize(
     ("ends", "words"), [(overflow, "OverflowError: too stiff"), (exits, "exit code 0")]
 )
-def test_a_lost_reference_costs_its_own_case(
+def test_a_lost_reference_is_a_mistake_of_its_own_file(
     trial: Make,
     moving: Case,
     ends: Callable[[Case], Solution],
     words: str,
     monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
 ) -> None:
-    lost = replace(moving, name="lost")
-    solve = suite.solve
-    monkeypatch.setattr(suite, "solve", lambda case: (ends if case.name == "lost" else solve)(case))
+    lost = replace(moving, name="lost", source=replace(moving.source, file="lost.yaml"))
+    solve = solving.solve
+    fails = lambda case: (ends if case.name == "lost" else solve)(case)  # noqa: E731
+    monkeypatch.setattr(solving, "solve", fails)
     report = measure([lost, moving], [trial().engine])
-    assert report.fails
+    (mistake,) = report.mistakes
+    assert mistake.file == "lost.yaml"
+    assert mistake.what.startswith("the reference of lost could not be solved: ")
+    assert words in mistake.what
     rows = {row.case: row for row in report.comparisons if row.quantity == "ball.x"}
-    assert rows["moving"].verdict == AGREES
-    assert rows["lost"].verdict == FAILS
-    assert words in rows["lost"].because
-    checks = {row.case: row.verdict for row in report.certificates}
-    assert checks["lost"] == FAILS
-    write.write(write.tables(report, [lost, moving]), tmp_path)
-    read = {row.case: row for row in write.read(tmp_path / "tolerance.csv", Comparison)}
-    assert words in read["lost"].because
+    assert {name: row.verdict for name, row in rows.items()} == {"moving": AGREES}
 
 
 @pytest.mark.slow

@@ -73,7 +73,10 @@ def _of_each(value: Any) -> Iterator[str]:
         yield f"mujoco.{EACH}: should be a map of contacts and stops, by their names, is {value!r}"
         return
     for element, numbers in value.items():
-        yield from _in_group(of_one(element), numbers, _ALONE)
+        if all(part.isidentifier() for part in str(element).split(".")):
+            yield from _in_group(of_one(element), numbers, _ALONE)
+        else:
+            yield f"mujoco.{EACH}: {element!r} can be the name of no contact and no joint"
 
 
 def _in_group(group: str, value: Any, sizes: Mapping[str, tuple[int, ...]]) -> Iterator[str]:

@@ -14,13 +14,13 @@ from ....reference.solve import Solution
 from ...compare.judge.uncertified import uncertified
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
-from ...system.pool import Died, local, workers
+from ...system.pool import local, workers
 from ..cache.key import Keys
 from ..cache.store import Store, passing
 from ..search.candidate import Candidate
 from ..search.parallel_search import Asking, Known, Search, lost, together
 from ..search.solving import solved
-from ..task_results import Progress, Results
+from ..task_results import Progress, Results, mistakes_of
 from ..tasks import Pair
 from .advice_rows import Advised, Requirement
 from .candidates import NOTHING, Choice, Menu, fitting
@@ -101,13 +101,13 @@ def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
     """With the samples that the engine's own step meets; of those without a reference, why."""
     cases = [pair.sampled for pair in pairs]
     keys = [results.keys.solution(case) for case in cases]
-    found = results.of("references", solved, dict(zip(keys, cases, strict=True)))
+    by_key = dict(zip(keys, cases, strict=True))
+    found = results.of("references", solved, by_key)
     own = {key for pair, case, key in zip(pairs, cases, keys, strict=True) if case is pair.case}
-    wrong = {key: error for key, error in found.items() if isinstance(error, CaseError)}
-    if mistaken := [wrong[key] for key in wrong.keys() & own]:
-        raise CaseError([mistake for error in mistaken for mistake in error.mistakes])
-    lost = {key: answer.because for key, answer in found.items() if isinstance(answer, Died)}
-    lost |= {key: f"{_FAR}: {error.mistakes[0].what}" for key, error in wrong.items()}
+    wrong = {key: mistakes_of(by_key[key], answer) for key, answer in found.items()}
+    if mistaken := [one for key in by_key if key in own for one in wrong[key]]:
+        raise CaseError(mistaken)
+    lost = {key: f"{_FAR}: {each[0].what}" for key, each in wrong.items() if each}
     lost = {key: f"there is no reference: {why}" for key, why in lost.items()}
     solutions = {key: answer for key, answer in found.items() if isinstance(answer, Solution)}
     lost |= {key: uncertified(one) for key, one in solutions.items() if not one.holds}

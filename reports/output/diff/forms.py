@@ -25,6 +25,7 @@ TITLES = {
 PLURALS = {kind: "regressions" if kind == WORSE else kind for kind in KINDS}
 WIDTH = 80
 MOST = 30  # changes shown of a kind: more have one cause as a rule, and are not read one by one
+LONGEST = 1000  # letters of a line: names of a case have 60, those of a foreign table any number
 LISTED = 50  # the same in Markdown: a comment holds 65 000 letters
 NAMES = 6  # of cases that only one folder has
 HEAD = ("case", "engine", "what", "OLD → NEW", "file")
@@ -52,7 +53,7 @@ def text(found: Difference, *, width: int = WIDTH, every: bool = False) -> str:
 def fitted(line: str, width: int) -> list[str]:
     """Returns the lines of a line broken to this width; those after the first are indented more."""
     indent = len(line) - len(line.lstrip())
-    further = " " * (indent + 4)
+    further, line = " " * (indent + 4), shortened(line)
     return wrap(line, max(width, 40), subsequent_indent=further, break_on_hyphens=False) or [""]
 
 
@@ -74,8 +75,14 @@ def markdown(found: Difference, *, every: bool = False) -> str:
     return "\n".join([*lines, ""])
 
 
+def shortened(text: str) -> str:
+    """Returns the text, of which no more than `LONGEST` letters are shown."""
+    more = len(text) - LONGEST
+    return text if more <= 0 else f"{text[:LONGEST]}… ({more} letters more)"
+
+
 def _cells(cells: Iterable[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+    return f"| {' | '.join(map(shortened, cells))} |"
 
 
 def _plain(text: str) -> str:

@@ -1,9 +1,12 @@
 """What pymunk is given: a user's own loop bit for bit, checked by the audit, and its limits."""
 
+import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
+from given import scenes
 from given.engine_scenes import BOX, RADIUS, WHEEL, G, guided, incline, machine, pin, touching
 from given.planning import CASES, SHIPPED, TUNED, begun, moved, planned
 from pymunk.body import Body
@@ -13,6 +16,7 @@ from pymunk.space import Space
 from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import Trajectory, X
 from textmech.engines.engine import Diverged
+from textmech.engines.pymunk.model.contact import closed
 from textmech.engines.pymunk.stepping import scene as builder
 from textmech.reports.compare.trial.audit import EQUAL, audit
 from textmech.reports.compare.trial.trial import Trial
@@ -116,3 +120,28 @@ def test_samples_that_no_step_meets() -> None:
     times = CASES["bar_pendulum"].times
     with pytest.raises(ValueError, match=r"no whole multiples of the step 0\.003"):
         moved(TUNED["pymunk"], *begun("bar_pendulum"), times, 3e-3)
+
+
+STANDS = """\
+scene:
+  bodies: {rod: {bar: {mass: 1, length: 0.8}}}
+  contacts: {tip: {between: [rod.start, ground.floor], friction: 0.1}}
+initial: {rod: {start: [0, 0], angle: 60 deg}}
+allow: {rod.angle: 1.0e-2}
+"""
+
+
+@pytest.mark.mutant("a contact's point is taken to rise where its body turns the other way")
+@pytest.mark.parametrize(
+    ("omega", "vy", "stays"),
+    [(2.0, 0.4, True), (2.0, 0.3, True), (2.0, 0.5, False), (-2.0, -0.3, False)],
+)
+def test_a_contact_is_closed_unless_its_point_rises(
+    omega: float, vy: float, stays: bool, tmp_path: Path
+) -> None:
+    """The start, 0.2 m left of the centre at 60 deg, moves up by vy − 0.2 m ω."""
+    scene = scenes.typed(tmp_path, STANDS).scene
+    angle = math.radians(60)
+    x, y = 0.4 * math.cos(angle), 0.4 * math.sin(angle)
+    start = {"rod": (x, y, angle, 0.0, vy, omega)}
+    assert [contact.name for contact in closed(scene, start)] == ["tip"] * stays

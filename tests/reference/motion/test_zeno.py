@@ -258,3 +258,13 @@ def test_friction_that_ends_the_bounces_is_seen(
     monkeypatch.setattr(event._Walk, "_is_passed", lambda *_: False)
     with pytest.raises(CaseError, match="'r stops' happens thousands of times or without end"):
         solve(scenes.typed(tmp_path, RUBS, tail=scenes.tail(1.2, 41)))
+
+
+@pytest.mark.mutant("the limit of a pile is found by a wrong sum")
+@pytest.mark.parametrize("ratio", [0.1, 0.5, 0.9])
+def test_what_is_left_of_a_pile_is_the_geometric_sum(ratio: float) -> None:
+    """d r + d r² + … = d r / (1 − r) after the last of instants whose distances are d rᵏ."""
+    distances = 0.3 * ratio ** np.arange(6)
+    instants = np.cumsum([0.0, *distances])
+    limit = 0.3 / (1.0 - ratio)
+    assert instants[-1] + module.left(instants) == pytest.approx(limit, rel=1e-12)

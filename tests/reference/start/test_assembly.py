@@ -239,3 +239,38 @@ def test_the_advice_tells_one_way_from_all_others(tmp_path: Path) -> None:
     assert advice.count("angle") == 2
     q, _ = assemble(scenes.typed(tmp_path, f"{STACK}{advice}\n"))
     assert q == pytest.approx([0, 0.1, 0, 0.055, 0.3, 0], abs=1e-12)
+
+
+CARRIED = """\
+scene:
+  points: {A: [0, 0], B: [1, 0]}
+  bodies:
+    rod: {bar: {mass: 1, length: 0.4}}
+    plank: {block: {mass: 2, width: 1.0, height: 0.1}, points: {l: [-0.5, 0], r: [0.5, 0]}}
+    left: {bar: {mass: 1, length: 0.5}}
+    right: {bar: {mass: 1, length: 0.5}}
+  joints:
+    a: {pin: [ground.A, left.start]}
+    b: {pin: [ground.B, right.start]}
+    c: {pin: [left.end, plank.l]}
+    d: {pin: [right.end, plank.r]}
+  contacts: {foot: {between: [rod.start, plank.top], friction: 0.9}}
+initial:
+  left: {angle: 90 deg, omega: 2}
+  right: {angle: 90 deg}
+  rod: {on: start, x: 0.6, angle: 80 deg, omega: 0.3}
+allow: {rod.angle: 1.0e-3}
+"""
+
+
+@pytest.mark.mutant("what stands on another body has rates of its own")
+def test_what_stands_on_a_body_moves_with_it(tmp_path: Path) -> None:
+    """The plank's −1 m/s follow from the left bar alone; the rod's foot has them too."""
+    _, v = start(tmp_path, CARRIED)
+    assert v["plank.x"] == pytest.approx(-1.0, abs=1e-12)
+    angle, omega = math.radians(80), 0.3
+    foot = (
+        v["rod.x"] + omega * 0.2 * math.sin(angle),
+        v["rod.y"] - omega * 0.2 * math.cos(angle),
+    )
+    assert foot == pytest.approx((-1.0, 0.0), abs=1e-12)

@@ -26,3 +26,17 @@ def test_each_bounce_is_lower_by_the_square(e: float):
     events = disk.closed_events(float(tops[-1]))
     assert [t for _, t in events] == pytest.approx(bounces.tolist(), abs=1e-14)
     assert [event.time for event in found.events] == pytest.approx(bounces.tolist(), abs=1e-13)
+
+
+@pytest.mark.mutant("of bounces that pile up the closed form tells no end")
+@pytest.mark.parametrize("e", [0.001, 0.2, 0.5, 0.9])
+def test_bounces_that_pile_up_are_told_up_to_the_ones_we_tell_apart(e: float) -> None:
+    """As many as the integrator finds; the flight that is left is too short for either."""
+    disk, t1 = BouncingDisk(m=1.3, R=R, e=e, y0=R + H), math.sqrt(2 * H / G)
+    limit = t1 * (1 + e) / (1 - e)
+    events = disk.closed_events(2 * limit)
+    found = follow(disk, np.linspace(0.0, 2 * limit, 11)).events
+    assert len(events) == len(found)
+    # Of 132 bounces each adds the rounding of some 10 s.
+    assert [t for _, t in events] == pytest.approx([event.time for event in found], abs=1e-11)
+    assert 0.0 <= limit - events[-1][1] < 1e-6

@@ -2,7 +2,8 @@
 
 import json
 import os
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -212,6 +213,18 @@ def test_names_of_any_letters_are_compared_and_steer_no_terminal(tmp_path: Path)
     assert done.returncode == 1
     assert "1 regression" in done.stdout
     assert "\033" not in done.stdout
+
+
+@pytest.mark.mutant("a name of any length is shown whole")
+@pytest.mark.parametrize("words", [(), ("--markdown",)])
+def test_of_a_very_long_name_the_beginning_is_shown(words: Sequence[str], tmp_path: Path) -> None:
+    for folder, largest in (("old", 1e-3), ("new", 9e-3)):
+        rows = [replace(ROW, quantity="x" * 100_000, error=largest)]
+        report(tmp_path / folder, rows=rows)
+    done = textmech("diff", tmp_path / "old", tmp_path / "new", *words)
+    assert done.returncode == 1
+    assert re.search(r"… \(99\d{3} letters\s+more\)", done.stdout)
+    assert len(done.stdout) < 10_000
 
 
 @pytest.fixture(scope="module")
