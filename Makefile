@@ -8,7 +8,7 @@ INSTALL := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 # What is compiled is kept: else every worker compiles all modules and all tests anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: reports advice test test-slow test-all processors quick lint mutants speed bench install clean
+.PHONY: reports advice test test-slow test-all everywhere processors quick lint mutants speed bench install clean
 
 reports: $(READY)
 	$(VENV)/bin/textmech run --causes --page
@@ -26,6 +26,12 @@ test-slow: $(READY)
 
 # Everything.
 test-all: test test-slow
+
+# Whether it installs and works without pins: the lowest and the newest versions that pyproject.toml
+# allows, on each Python from 3.11 to 3.14 that is here, with all quick tests; fewer by WHAT, as
+# `make everywhere WHAT="--python 3.12 tests/cases"` or `WHAT=--smoke`.
+everywhere: $(READY)
+	$(VENV)/bin/python tests/everywhere.py $(WHAT)
 
 # Whether the tests hang on rounding: all of them as other processors would run them, hours of work;
 # fewer by WHAT, as `make processors WHAT=tests/reference`.

@@ -45,7 +45,7 @@ def main() -> None:
 def _answered() -> int | None:
     """The exit code; None is 0 too."""
     try:
-        return command(standalone_mode=False)
+        return command(prog_name="textmech", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:
         tell(error.format_message())
     except click.ClickException as error:

@@ -15,6 +15,9 @@ from pathlib import Path
 import pytest
 from given.swing import SWING
 
+from textmech.reports.output import write
+from textmech.reports.output.diff.folder import NOT_PACKED
+
 ROOT = Path(__file__).parents[1]
 OURS = ("cases", "reference", "engines", "reports")
 NAMES = {"textmech", "__editable__"}  # what an installed suite leaves beside other packages
@@ -22,7 +25,7 @@ NAMES = {"textmech", "__editable__"}  # what an installed suite leaves beside ot
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    others = ("__init__.py", "py.typed", "pyproject.toml", "README.md", "LICENSE")
+    others = ("__init__.py", "__main__.py", "py.typed", "pyproject.toml", "README.md", "LICENSE")
     return built(ROOT, (*OURS, *others), tmp_path_factory)
 
 
@@ -90,10 +93,12 @@ def test_the_wheel_holds_one_package_and_its_data(wheel: Path) -> None:
     assert {"textmech/__init__.py", "textmech/py.typed"} <= set(names)
     data = ("cases", "*.yaml"), ("cases", "*.json"), ("cases/questions", "*.yaml")
     told = [(name, "*.md") for name in (*OURS, "cases/questions")]
-    for folder, pattern in (*data, *told, ("reports", "*.csv"), ("reports", "*.svg")):
+    for folder, pattern in (*data, *told):
         files = [file.name for file in (ROOT / folder).glob(pattern)]
         assert files
         assert {f"textmech/{folder}/{file}" for file in files} <= set(names)
+    tables = {name.removeprefix("textmech/reports/") for name in names if name.endswith(".csv")}
+    assert tables == {*write.FILES} - {*NOT_PACKED}
 
 
 @pytest.mark.slow
@@ -115,6 +120,14 @@ def test_the_command_runs_beside_them(python: Path, project: Path) -> None:
     assert "swing in mujoco" in done.stdout
     assert "swing in pymunk" in done.stdout
     assert "bar_pendulum" in run(python.parent / "textmech", "list", cwd=project).stdout
+
+
+@pytest.mark.slow
+def test_a_run_is_compared_with_the_packed_tables(python: Path, project: Path) -> None:
+    run(python, "-m", "textmech", "run", "translation", "--out", "mine", cwd=project)
+    done = run(python, "-m", "textmech", "diff", "mine", cwd=project)
+    for name in NOT_PACKED:
+        assert f"not looked at: {name}, which only NEW has" in done.stdout
 
 
 @pytest.mark.slow

@@ -123,9 +123,15 @@ def lost(condition: float) -> float:
 
 
 def condition(rows: Array, base: Multibody) -> float:
-    """Condition number of the equations for the multipliers, in units where each row has size 1."""
+    """Condition number of the equations for the multipliers, in units where each row has size 1.
+
+    Raises LinAlgError where a row is zero.
+    """
     if not len(rows):
         return 1.0
     by_mass = rows / np.sqrt(np.array(base.where.masses))
-    by_mass /= np.linalg.norm(by_mass, axis=1, keepdims=True)
+    sizes = np.linalg.norm(by_mass, axis=1, keepdims=True)
+    if not np.all(sizes > 0.0):
+        raise np.linalg.LinAlgError("a row of zeros")
+    by_mass /= sizes
     return float(np.linalg.cond(by_mass)) ** 2

@@ -84,9 +84,11 @@ class Dependent:
         """How many times larger the rounding of q̈^{a1} is than that of its equations.
 
         Of ∂²T'/∂q̇² in units in which its diagonal is 1: a light body that is counted from a heavy
-        one has little of it.
+        one has little of it. Raises LinAlgError where a rate has no inertia at all.
         """
         M = self.inertia(t, q)
+        if not np.all(np.diag(M) > 0.0):
+            raise np.linalg.LinAlgError("a rate without inertia")
         size = np.sqrt(np.diag(M))
         return float(np.linalg.cond(M / np.outer(size, size)))
 

@@ -60,7 +60,7 @@ def lagrange(nodes: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.
 def _nodes(stages: int) -> NDArray[np.float64]:
     """Zeros of P_(s-1) - P_s, of Legendre's polynomials, moved to [0, 1]: the last is the end."""
     polynomial = Legendre.basis(stages - 1) - Legendre.basis(stages)
-    zeros = polynomial.roots()
+    zeros = polynomial.roots().real  # of a kind with Jacobi's: all are real, whatever their type
     zeros -= polynomial(zeros) / polynomial.deriv()(zeros)  # eigenvalues, to the last bit
     return np.append((1.0 + zeros[:-1]) / 2.0, 1.0)
 

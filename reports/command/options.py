@@ -66,8 +66,8 @@ def jobs(command: Any) -> Any:
 no_cache = click.option(
     "--no-cache",
     is_flag=True,
-    help="Compute everything anew. Else results lie in $TEXTMECH_CACHE, by default "
-    "~/.cache/textmech, and are used while nothing they depend on has changed.",
+    help="Compute everything anew. Else results lie in $TEXTMECH_CACHE, by default the cache of "
+    "the user (~/.cache/textmech), and are used while nothing they depend on has changed.",
 )
 overwrite = click.option(
     f"--{OVERWRITE}",

@@ -37,12 +37,17 @@ HERE = Path(__file__).parents[1]  # where the committed tables lie
 OVERWRITE = "overwrite"
 
 
+def is_checkout() -> bool:
+    """Whether this is a checkout, whose tables are our own, and no installed package."""
+    return (HERE.parent / "pyproject.toml").is_file()
+
+
 def unasked(folder: Path, names: Iterable[str], *, overwrite: bool) -> None:
     """Nothing, if each of the names is free there, or is a file of ours, or may be overwritten.
 
     The committed reports of a checkout are ours whatever they hold. Raises FileExistsError.
     """
-    if overwrite or (folder.resolve() == HERE and (HERE.parent / "pyproject.toml").is_file()):
+    if overwrite or (folder.resolve() == HERE and is_checkout()):
         return
     for name in names:
         if (what := _strange(folder / name)) is not None:

@@ -17,7 +17,7 @@ from ..batch.suite import Report
 from ..data import runs
 from ..data.coverage import coverage
 from ..data.file_content import text as content
-from ..data.ownership import HERE, unasked
+from ..data.ownership import HERE, is_checkout, unasked
 from ..data.row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
 from ..system.replace import replace
 
@@ -38,7 +38,7 @@ Row = TypeVar("Row", Comparison, Rungs, StepError, Certificate, Instant, Cause, 
 
 def by_default() -> Path:
     """Where a full run writes: the committed reports of a checkout, else the user's own folder."""
-    return HERE if (HERE.parent / "pyproject.toml").is_file() else ELSEWHERE
+    return HERE if is_checkout() else ELSEWHERE
 
 
 def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:

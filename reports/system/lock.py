@@ -1,14 +1,15 @@
 """A lock between processes, which dies with the one that holds it."""
 
 import os
+import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from hashlib import sha256
 from pathlib import Path
 
-try:
-    import fcntl
-except ImportError:  # Windows has none of this kind: two runs at once are the user's care there
-    fcntl = None
+WINDOWS = os.name == "nt"
+# Never what a link leads to, nor does a pipe wait; Windows has neither word.
+_PLAIN = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 
 
 @contextmanager
@@ -18,20 +19,16 @@ def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[No
     A lock that cannot be had is none: another user's file in a cache that two share, a network
     file system without locks. Who needs it to write learns that from the writing.
     """
-    held = None if fcntl is None else _opened(path)
-    if fcntl is None or held is None:
+    held = _opened(path)
+    if held is None:
         yield
         return
     _HELD.add(held)
     try:
-        try:
-            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+        if not _lock(held, waits=False):
             if waiting:
                 waiting()
-            fcntl.flock(held, fcntl.LOCK_EX)
-        except OSError:
-            pass  # a network file system without locks
+            _lock(held)
         yield
     finally:
         _close(held)
@@ -39,6 +36,15 @@ def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[No
 
 _HELD: set[int] = set()
 """The locks' descriptors: a process that an engine forks would hold them as long as it lives."""
+
+
+def _lock(held: int, *, waits: bool = True) -> bool:
+    """Locks it; False while another has it. On a network file system without locks none has."""
+    from filelock import lock_descriptor  # a quarter of a second
+
+    with suppress(OSError):
+        return lock_descriptor(held, blocking=waits)
+    return True
 
 
 def _close(held: int) -> None:
@@ -58,22 +64,28 @@ if hasattr(os, "register_at_fork"):
 
 
 def _opened(path: Path) -> int | None:
-    """The folder, or the file, made where there was none; never what a link leads to, or a pipe."""
-    kind = os.O_RDONLY if path.is_dir() else os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW
+    """The folder, or the file, made where there was none."""
+    folder = path.is_dir()
+    if folder and WINDOWS:  # it opens no folder: a temporary file of the user's stands for it
+        digest = sha256(os.fsencode(path.resolve())).hexdigest()
+        path, folder = Path(tempfile.gettempdir(), f"textmech-{digest[:32]}.lock"), False
+    kind = os.O_RDONLY if folder else os.O_RDWR | os.O_CREAT
     with suppress(OSError):
-        return os.open(path, kind | os.O_NONBLOCK, 0o600)
+        return os.open(path, kind | _PLAIN, 0o600)
     return None
 
 
 def abandoned(path: Path) -> bool:
-    """Whether nobody holds the file any more; False where locks cannot tell."""
-    if fcntl is None:
+    """Whether nobody holds the file any more, or it is gone; False where locks cannot tell."""
+    from filelock import lock_descriptor
+
+    try:
+        held = os.open(path, os.O_RDONLY | _PLAIN)
+    except OSError as error:
+        return isinstance(error, FileNotFoundError)
+    try:
+        return lock_descriptor(held, blocking=False)
+    except OSError:
         return False
-    with suppress(OSError):
-        held = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-        try:
-            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        finally:
-            os.close(held)
-        return True
-    return False
+    finally:
+        os.close(held)

@@ -19,6 +19,7 @@ from . import termination as ending
 from .lock import abandoned, locked
 
 MARK = ".textmech-passing"
+LOCK = ".textmech-lock"  # beside the mark: Windows lets nobody read what is locked
 LONGEST = 200  # bytes of a mark
 
 
@@ -34,7 +35,7 @@ def passing(prefix: str, among: Path | None = None) -> Iterator[Path]:
     folder = Path(tempfile.mkdtemp(prefix=prefix, dir=among))
     with ending.at_once(lambda: _away(folder)):
         try:
-            with locked(folder / MARK):
+            with locked(folder / LOCK):
                 (folder / MARK).write_text(_mark(folder), encoding="utf-8")
                 yield folder
         finally:
@@ -44,7 +45,8 @@ def passing(prefix: str, among: Path | None = None) -> Iterator[Path]:
 def adopt(folder: Path) -> None:
     """Whatever was left there is a person's from now on, who has named the folder."""
     if _ours(folder):
-        (folder / MARK).unlink(missing_ok=True)
+        for name in (LOCK, MARK):
+            (folder / name).unlink(missing_ok=True)
 
 
 def _sweep(prefix: str, among: Path) -> None:
@@ -73,7 +75,7 @@ def _ours(folder: Path) -> bool:
         stands = folder.lstat()
         mine = not hasattr(os, "geteuid") or stands.st_uid == os.geteuid()
         told = stat.S_ISDIR(stands.st_mode) and mine and text(folder / MARK, LONGEST)
-        return told == _mark(folder) and abandoned(folder / MARK)
+        return told == _mark(folder) and abandoned(folder / LOCK)
     return False
 
 

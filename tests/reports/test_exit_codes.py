@@ -1,6 +1,8 @@
 """What `textmech run` ends with: a README promises a code for each, and for two at once."""
 
 import importlib
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -65,3 +67,15 @@ def test_what_only_shows_ends_well(tmp_path: Path) -> None:
         patch.setattr(written, "write_measured", lambda *_, **__: None)
         words = ["swing", "--out", str(tmp_path / "out")]
         assert not page.page.main(words, standalone_mode=False)
+
+
+@pytest.mark.parametrize("words", [("--version",), (), ("run", "--help"), ("show", "four_bar")])
+def test_python_m_textmech_is_the_command(words: tuple[str, ...]) -> None:
+    command = Path(sys.executable).with_name("textmech")
+    said = [
+        subprocess.run([*line, *words], capture_output=True, text=True, check=False)
+        for line in ((command,), (sys.executable, "-m", "textmech"))
+    ]
+    one, other = ((done.returncode, done.stdout, done.stderr) for done in said)
+    assert one == other
+    assert any(one[1:])

@@ -185,5 +185,6 @@ def test_one_that_a_person_names_is_theirs(other: tuple[Popen[str], Path]) -> No
     process.kill()
     process.wait()
     Folder().convert(str(folder), None, None)
+    assert [path.name for path in folder.iterdir()] == ["ab"]
     with passing(PREFIX):
         assert folder.is_dir()

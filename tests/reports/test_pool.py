@@ -3,16 +3,18 @@
 import os
 import signal
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from given.forked import TOLD, runs
 
-from textmech.reports.system import pool
+from textmech.reports.system import lock, pool
 from textmech.reports.system.lock import locked
 from textmech.reports.system.pool import Processes
 
@@ -269,6 +271,23 @@ def test_what_a_task_starts_ends_with_the_pool(dies: bool, tmp_path: Path) -> No
     while runs(left) and time.monotonic() < until:
         time.sleep(0.01)
     assert not runs(left)
+
+
+@pytest.mark.parametrize("windows", [False, True])
+def test_a_folder_is_locked_as_a_file_is(
+    windows: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On Windows, which opens none, by a temporary file; nothing is left in the folder."""
+    (temporary := tmp_path / "temporary").mkdir()
+    (folder := tmp_path / "folder").mkdir()
+    monkeypatch.setattr(lock, "WINDOWS", windows)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    first, waited = ExitStack(), list[int]()
+    first.enter_context(locked(folder))
+    with locked(folder, lambda: waited.append(1) or first.close()):
+        assert waited
+    assert not [*folder.iterdir()]
+    assert len([*temporary.iterdir()]) == windows
 
 
 @pytest.mark.mutant("a lock that a forked process holds as long as it lives")

@@ -12,6 +12,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from platformdirs import user_cache_path
+
 from ...data.file_content import content
 from ...system import temporary_folder as folder
 from ...system.lock import locked
@@ -28,11 +30,16 @@ _SHELF = re.compile(r"[0-9a-f]{2}")
 
 
 def by_default() -> Path:
-    """The user's own: never the project's. The same from wherever a process looks."""
+    """The user's own: never the project's. The same from wherever a process looks.
+
+    Raises RuntimeError where the user has no home.
+    """
     if named := os.environ.get(FOLDER):
         return Path(named).absolute()
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return (Path(base) / "textmech").absolute()
+    place = user_cache_path("textmech", appauthor=False)
+    if not place.is_absolute():
+        raise RuntimeError("no home")
+    return place
 
 
 def usable() -> "Store | None":

@@ -10,10 +10,12 @@ from pathlib import Path
 
 from ....cases.mistake import CaseError, Mistake
 from ...data import file_content, runs
+from ...data.ownership import HERE, is_checkout
 from ...data.row import OF_NO_RUN
 from ...data.runs import Written
-from .columns import ERRORS, KNOWN, Row
+from .columns import ERRORS, KNOWN, STEPS, Row
 
+NOT_PACKED = (STEPS.name,)  # no wheel has it: a third of all tables, and it judges nothing
 REFERENCE = ("reference", "")  # an engine's column in events.csv, of every run
 
 
@@ -191,7 +193,8 @@ def _mixed(tables: Mapping[str, Table], written: Mapping[str, Written]) -> Itera
 def _cut(path: Path, written: Mapping[str, Written]) -> Iterator[Mistake]:
     """The known files of the run that are not there any more."""
     run = written[ERRORS.name].run if ERRORS.name in written else None
-    for name in sorted({*KNOWN} & {*written}):
+    packed = path.resolve() == HERE and not is_checkout()
+    for name in sorted({*KNOWN} & {*written} - ({*NOT_PACKED} if packed else set())):
         if written[name].run == run and not (path / name).exists():
             what = f"is not there, and {runs.NAME} names it: the folder was cut; run it again"
             yield _mistake(path / name, what)

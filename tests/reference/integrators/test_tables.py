@@ -32,6 +32,8 @@ def test_radau_conditions(stages: int):
     table: Collocation = radau_table(stages)
     a, c, b = table.a, table.c, table.a[-1]
     assert c[-1] == 1.0
+    for figures in (a, c, table.gamma, table.error, table.leading):
+        assert np.isrealobj(figures)
     for k in range(1, 2 * stages):  # B(2s - 1)
         assert b @ c ** (k - 1) == pytest.approx(1.0 / k, abs=2e-15)
     assert abs(b @ c ** (2 * stages - 1) - 0.5 / stages) > 1e-12  # and not B(2s)

@@ -102,3 +102,29 @@ def test_a_force_that_does_not_swing_is_refused(A: float, w: float) -> None:
     """No next zero of its speed could be found: it was looked for without end."""
     with pytest.raises(ValueError, match="the force swings with A ≠ 0 and w > 0"):
         example("viscous_drift", A=A, w=w)
+
+
+def numbers(system: System) -> Iterator[Any]:
+    """All that is known by functions, and what its first mode says of the start and of forces."""
+    for t in TIMES:
+        yield from system.closed_form(t) or ()
+    yield from (t for _, t in system.closed_events(5.0) or ())
+    name, q, v = system.start()
+    mode = system.modes[name]
+    yield from (q, v, mode.accelerations(0.0, q, v), mode.rates(0.0, q, v))
+    yield from mode.reactions(0.0, q, v).values()
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_no_number_is_complex(name: str) -> None:
+    """By accident, that is: see tests/conftest.py."""
+    for found in numbers(SYSTEMS[name]):
+        assert np.isrealobj(np.asarray(found)), found
+
+
+def test_eigenvalues_are_complex_in_all_tests() -> None:
+    """Else the test above, and all others, would not see who takes them for real."""
+    matrix = np.diag([1.0, 2.0])
+    roots = np.roots([1.0, -3.0, 2.0]), np.polynomial.Legendre([1.0, 2.0, 3.0]).roots()
+    for found in (np.linalg.eigvals(matrix), *np.linalg.eig(matrix), *roots):
+        assert np.iscomplexobj(found)

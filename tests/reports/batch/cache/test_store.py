@@ -1,6 +1,7 @@
 """A stored result is whole or not there, and there are never too many."""
 
 import os
+import pwd
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -180,15 +181,18 @@ def test_an_entry_of_another_user_is_used(kept: Store, monkeypatch: pytest.Monke
 
 
 def test_who_names_it_needs_no_home(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    def homeless() -> Path:
-        raise RuntimeError("Could not determine home directory.")
+    def homeless(user: int) -> None:
+        raise KeyError(f"getpwuid(): uid not found: {user}")
 
-    monkeypatch.setattr(Path, "home", homeless)
-    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setattr(pwd, "getpwuid", homeless)
+    for name in ("HOME", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setenv(store.FOLDER, str(tmp_path / "mine"))
     assert store.by_default() == tmp_path / "mine"
     monkeypatch.delenv(store.FOLDER)
     assert store.usable() is None
+    assert not [*tmp_path.iterdir()]  # no folder called ~
 
 
 def test_it_is_the_same_from_every_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
