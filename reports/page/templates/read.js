@@ -26,14 +26,15 @@ function columnOf(key, own) {
     title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised === 'any way' ? 'law or driver' : realised}`)};
 }
 
-function levels(letters) {
-  const found = new Float64Array(letters.length / 2);
-  for (let k = 0; k < found.length; k++) found[k] = 64 * LEVEL.get(letters[2 * k]) + LEVEL.get(letters[2 * k + 1]);
+function levels(letters, width) {
+  const found = new Float64Array(letters.length / width);
+  for (let k = 0; k < letters.length; k++) { const at = Math.floor(k / width); found[at] = 64 * found[at] + LEVEL.get(letters[k]); }
   return found;
 }
-const unpack = ([low, step, letters]) => levels(letters).map((k) => low + step * k);
+const unpacking = (width) => ([low, step, letters]) => levels(letters, width).map((k) => low + step * k);
+const [unpack, unpackPose] = [unpacking(2), unpacking(3)]; // letters of a number
 // Errors: each to half a percent of itself, the upper half of the levels below zero.
-const unpackBySize = ([largest, step, letters]) => levels(letters).map((k) =>
+const unpackBySize = ([largest, step, letters]) => levels(letters, 2).map((k) =>
   (k % 2048 === 0 ? 0 : (k < 2048 ? 1 : -1) * largest * 10 ** (-(k % 2048 - 1) * step)));
 
 function made(element, attributes, children) {

@@ -124,10 +124,12 @@ def test_the_drawn_bar_is_where_the_reference_is(
     """The script's places, against the trajectory itself: hinge at O, the bar at its angle."""
     look(tab, f"{page}#swing", prefers_reduced_motion="reduce")
     tab.until("document.querySelector('#swing .play')")
+    (case,) = (case for case in made.cases if case.name == "swing")
+    times = case.times.tolist()
     told = tab.ask(
-        """(() => { const m = MOTIONS.swing, pose = poser(m.times, m.poses, m.axes);
-        const bar = m.sketch.bodies.rod.lines[0], t = unpack(m.times);
-        return Array.from(t, (at) => bar.map((p) => placed(pose(at).get('rod'), p))); })()"""
+        """(() => { const m = MOTIONS.swing, pose = poser(m);
+        const bar = m.sketch.bodies.rod.lines[0], t = TIMES;
+        return Array.from(t, (at) => bar.map((p) => placed(pose(at).get('rod'), p))); })()""".replace("TIMES", str(times))
     )
     states = made.report.solutions["swing"].trajectory.states["rod"]
     for ((x0, y0), (x1, y1)), state in zip(told, states, strict=True):
