@@ -66,7 +66,9 @@ def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
 def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Mapping[str, Array]]:
     """The motion at its samples, and between them too where they are too few to be drawn."""
     times, states = case.times, reference.states
-    while len(times) < MOST * case.samples and (parts := poses.closer(case, times, states, size)) > 1:
+    while (
+        len(times) < MOST * case.samples and (parts := poses.closer(case, times, states, size)) > 1
+    ):
         whole = np.arange(len(times))
         finer = np.linspace(0, len(times) - 1, parts * (len(times) - 1) + 1)
         times = np.interp(finer, whole, times)  # every sample is one of them
