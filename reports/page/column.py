@@ -42,7 +42,12 @@ def column(row: Comparison | Rungs | StepError | Instant) -> Column:
 
 def columns(rows: Iterable[Comparison]) -> list[Column]:
     """Returns every column of the rows in order, the book's approximations last."""
-    return sorted({column(row) for row in rows}, key=_place)
+    return ordered(map(column, rows))
+
+
+def ordered(found: Iterable[Column]) -> list[Column]:
+    """Returns each of them once, by engine and setting, the book's approximations last."""
+    return sorted(set(found), key=_place)
 
 
 def _place(one: Column) -> tuple[bool, str, float, str, int]:

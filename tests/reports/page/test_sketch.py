@@ -98,7 +98,7 @@ def test_a_drawing_is_as_large_as_the_motion_or_a_body(case: Case) -> None:
 def test_a_driven_point_is_drawn_where_it_is(case: Case) -> None:
     ((name, (places, rates)),) = poses.driven(case, case.times).items()
     assert name == "ground.hook"
-    assert places.T == pytest.approx(np.array([case.times, 1.0 + 0 * case.times]))
+    assert pytest.approx(np.array([case.times, 1.0 + 0 * case.times])) == places.T
     assert rates[1:-1].tolist() == [[1.0, 0.0]] * 9
     still = otherwise(poses, "(point.states(times)[:, :n]", "(point.states(0 * times)[:, :n]")
     assert still.driven(case, case.times)[name][0][:, 0] == pytest.approx(0.0 * case.times)
