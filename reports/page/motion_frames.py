@@ -50,13 +50,12 @@ def motion_frames(report: Report) -> dict[str, pd.DataFrame]:
     of: dict[str, list[Tried]] = {}
     for one in report.tried:
         of.setdefault(one.pair.case.name, []).append(one)
-    return {
-        case.name: pd.concat(
-            dict(_frames(report, case, of.get(case.name, []))), names=BY
-        ).sort_index()
-        for case in report.cases
-        if case.name in report.solutions
-    }
+    found: dict[str, pd.DataFrame] = {}
+    for case in report.cases:
+        if case.name in report.solutions:
+            frames = dict(_frames(report, case, of.get(case.name, [])))
+            found[case.name] = pd.concat(frames, names=BY).sort_index()
+    return found
 
 
 def _frames(
@@ -75,9 +74,7 @@ def _engine_frame(case: Case, one: Tried) -> pd.DataFrame:
     columns: dict[str, Array] = {}
     for name in names(case):
         found = samples.get(name)
-        if (
-            found is None or found.shape != times.shape
-        ):  # of an attitude what is judged is the turn off it
+        if found is None or found.shape != times.shape:  # an attitude is judged by its turn off
             found = _of_states(case, times, states, name)
         columns[name] = np.full(len(times), np.nan) if found is None else found
     return _framed(case, times, columns)

@@ -144,9 +144,9 @@ def _needed(times: Array, moves: Moves, within: Array) -> Array:
 
 
 def closer(case: Case, times: Array, states: Mapping[str, Array], size: float) -> int:
-    """In how many parts samples have to be parted for cubics to be the way between them; 1: in none.
+    """In how many parts the time between samples has to be cut for cubics to be the way; 1: uncut.
 
-    Else they would open joints, or lose a turn. The gaps fall with the fourth power of the parts.
+    Else they would open joints, or lose a turn. Gaps fall with the fourth power of the parts.
     """
     frame, middle = case.scene.frame, (times[1:] + times[:-1]) / 2
     found, needed = moves(states), [0.0]

@@ -127,11 +127,10 @@ def test_the_drawn_bar_is_where_the_reference_is(
     (case,) = (case for case in made.cases if case.name == "swing")
     times = case.times.tolist()
     told = tab.ask(
-        """(() => { const m = MOTIONS.swing, pose = poser(m);
-        const bar = m.sketch.bodies.rod.lines[0], t = TIMES;
-        return Array.from(t, (at) => bar.map((p) => placed(pose(at).get('rod'), p))); })()""".replace(
-            "TIMES", str(times)
-        )
+        """((t) => { const m = MOTIONS.swing, pose = poser(m);
+        const bar = m.sketch.bodies.rod.lines[0];
+        return Array.from(t, (at) => bar.map((p) => placed(pose(at).get('rod'), p))); })"""
+        f"({times})"
     )
     states = made.report.solutions["swing"].trajectory.states["rod"]
     for ((x0, y0), (x1, y1)), state in zip(told, states, strict=True):

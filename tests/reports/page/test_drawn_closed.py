@@ -88,9 +88,10 @@ APART = """((name, joints, straight) => {
     const width = document.getElementById(name).querySelector('svg.mechanism')
         .getBoundingClientRect().width / CANVAS.width;
     const line = (time) => {
-        const k = Math.max(1, t.findIndex((at) => at >= time)), s = (time - t[k - 1]) / (t[k] - t[k - 1]);
-        const [a, b] = [pose(t[k - 1]), pose(t[k])];
-        return new Map([...a].map(([part, c]) => [part, c.map((v, i) => v + s * (b.get(part)[i] - v))]));
+        const k = Math.max(1, t.findIndex((at) => at >= time)), [from, to] = [t[k - 1], t[k]];
+        const [a, b] = [pose(from), pose(to)], s = (time - from) / (to - from);
+        const between = (part, c) => c.map((v, i) => v + s * (b.get(part)[i] - v));
+        return new Map([...a].map(([part, c]) => [part, between(part, c)]));
     };
     return joints.map((ends) => Array.from({length: 1500}, (_, k) => {
         const time = last * (k + .5) / 1500, now = straight ? line(time) : pose(time);
@@ -102,7 +103,7 @@ APART = """((name, joints, straight) => {
 @pytest.mark.mutant("straight lines between the poses of the animation")
 @pytest.mark.parametrize("name", [*SHIPPED, "own_four_bar"])
 def test_no_joint_is_drawn_open(tab: Tab, made: SimpleNamespace, name: str) -> None:
-    """By the page's own functions, in the pixels of its drawing, at 1500 times; a rod stays long."""
+    """By the page's own functions, in pixels of its drawing, at 1500 times; a rod stays long."""
     case = made.cases[name]
     opened(tab, made, name)
     joints = ends(case)
@@ -119,13 +120,16 @@ def test_no_joint_is_drawn_open(tab: Tab, made: SimpleNamespace, name: str) -> N
 
 
 BARS = """((name) => {
-    const section = document.getElementById(name), slider = section.querySelector('[aria-label=time]');
-    const root = section.querySelector('svg.mechanism'), width = root.getBoundingClientRect().width / CANVAS.width;
+    const section = document.getElementById(name), root = section.querySelector('svg.mechanism');
+    const slider = section.querySelector('[aria-label=time]');
+    const width = root.getBoundingClientRect().width / CANVAS.width;
+    const number = (text) => width * Number(text);
     const bars = [...root.querySelectorAll('.reference .body')];
     return Array.from({length: 334}, (_, k) => {
         slider.value = 3 * k;
         slider.dispatchEvent(new Event('input', {bubbles: true}));
-        return bars.map((bar) => bar.getAttribute('points').split(' ').map((p) => p.split(',').map((v) => width * v)));
+        return bars.map((bar) => bar.getAttribute('points').split(' ').map(
+            (point) => point.split(',').map(number)));
     }); })"""
 
 
