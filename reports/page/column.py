@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ...engines import SETTINGS, place
 from ..batch.selection import BOOK
 from ..data.row import Comparison, Instant, Rungs, StepError
+from ..data.spoken import spoken
 
 WAYS = {"native": 0, "driver": 1, "law": 2}
 
@@ -31,7 +32,7 @@ class Column:
     @property
     def title(self) -> str:
         """Its name for a person."""
-        way = "" if self.realised == "native" else f" + {self.realised}"
+        way = "" if self.realised == "native" else f" + {spoken(self.realised)}"
         return f"{self.engine} {self.setting}{way}"
 
 

@@ -8,6 +8,7 @@ from ...engines import place
 from ..batch.selection import BOOK
 from ..data.row import AGREES, REFUSED, Comparison
 from ..data.short_numbers import factor
+from ..data.spoken import SETTINGS, spoken
 from ..show.picture import Curve, curves, drawn, worst
 from .column import Column
 from .folder import Folder
@@ -17,8 +18,6 @@ from .paint import THEIRS, svg
 
 Cells = Mapping[tuple[str, Column], Cell]
 SHIPPED = {"shipped": "as shipped", "recommended": "as its documentation recommends"}
-MEANING = {"shipped": "defaults", "recommended": "its manual’s", "tuned": "best found"}
-HELPED = {"law": " with our force law", "driver": " with our force law and loop"}
 PICTURE = "share of the cases that are at worst so far off, by engine and setting"
 FIRST = (
     (("loops",), "four_bar"),
@@ -47,7 +46,7 @@ def _key(curve: Curve) -> dict[str, str]:
     """Its label, and the colour and dashes of its line, as SVG has them."""
     _, setting = curve.name.split(" ", 1)
     dash = " ".join(str(2 * x) for x in curve.dash[1]) if isinstance(curve.dash, tuple) else "none"
-    meaning = MEANING.get(setting)
+    meaning = SETTINGS.get(setting)
     label = curve.label.replace(":", f" ({meaning}):", 1) if meaning else curve.label
     colour = dict(THEIRS).get(curve.colour.lower(), curve.colour)
     return {"label": label, "colour": colour, "dash": dash}
@@ -98,7 +97,8 @@ def _order(column: Column) -> tuple[str, float, str]:
 
 
 def _as(column: Column) -> str:
-    return _said(column.setting) + HELPED.get(column.realised, "")
+    way = spoken(column.realised)
+    return _said(column.setting) + (f" with {way}" if way else "")
 
 
 def _far(cell: Cell) -> str:

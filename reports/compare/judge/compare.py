@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,7 +163,9 @@ def _judged(
     # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
     tuned = _study(trial, ladders[0], runs, name) if len(ladders) > 1 else held
     error = metric.error(samples, wanted)
-    why = cause(_telling(trial, name, runs, error.largest, held), runs.finer, trial.plan.simplified)
+    unit = trial.quantity(name).unit
+    told = partial(cause, finer=runs.finer, simplified=trial.plan.simplified, unit=unit)
+    why = told(_telling(trial, name, runs, error.largest, held))
     at = moment(trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
@@ -172,7 +175,7 @@ def _judged(
         if not rest <= (trial.allowed(name) or np.inf):
             others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
             others = _telling(trial, name, runs, rest, others, at.elsewhere)
-            why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
+            why = f"{why}: {told(others)}"
     when = float(trial.case.times[error.at])
     word = verdict(trial, name, error.largest, held, why, tuned)
     return judged(trial, name, word, error, when)

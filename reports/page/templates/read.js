@@ -23,7 +23,7 @@ function columnOf(key, own) {
   const place = own.indexOf(`${engine}.${setting}`) % 3;
   const whose = ['mujoco', 'pymunk', 'book'].includes(engine) ? engine : 'other';
   return {key, engine, setting, realised, look: mine(engine, setting) ? `mine${place} mine ${way}` : `${whose} ${setting} ${way}`,
-    title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised === 'any way' ? 'law or driver' : realised}`)};
+    title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised === 'any way' ? 'our force law or loop' : spoken(realised)}`)};
 }
 
 function levels(letters, width) {
@@ -67,5 +67,6 @@ function few(number) {
 }
 const milliseconds = (step) => (step === null || step === '' ? '' : few(1e3 * step));
 const word = (k) => ROWS.words[k];
+const spoken = (text) => ROWS.spoken[text] ?? text; // a table's word as it is said
 const addressOf = (id) => `#${encodeURIComponent(id)}`; // a file may have any name
 const plain = (number) => (number === null ? '' : String(number));
