@@ -86,7 +86,8 @@ def test_columns_go_from_shipped_to_own_to_tuned_and_the_book_is_last() -> None:
              ("mujoco", "tuned", "native"), ("mujoco", "shipped", "native")]  # fmt: skip
     rows = [replace(ROW, engine=e, setting=s, realised=r) for e, s, r in names]
     assert [one.title for one in columns(rows)] == [
-        "mujoco shipped", "mujoco mine", "mujoco tuned", "pymunk tuned + our force law", "book smooth",
+        "mujoco shipped", "mujoco mine", "mujoco tuned", "pymunk tuned + our force law",
+        "book smooth",
     ]  # fmt: skip
     assert column(rows[0]) == Column("pymunk", "tuned", "law")
 
