@@ -58,15 +58,15 @@ class Reference:
         from .page.motion_frames import REFERENCE
         from .page.notebook import drawn
 
-        shown = _plotted(quantities, self.motion, self.allowed)
-        motions = {REFERENCE: self.motion}
+        shown = _plotted(quantities, [*map(str, self.motion)], self.allowed)
+        motions: dict[tuple[str, str, str], pd.DataFrame] = {REFERENCE: self.motion}
         return drawn(self.case, motions, self.units, shown, self.allowed)
 
     def __str__(self) -> str:
         known = self.checks.dropna(subset=["certified"])
+        rows = known[["name", "certified", "unit"]].to_numpy().tolist()
         certified = [
-            f"{check.name.removeprefix('error of ')} to {check.certified:.0e} {check.unit}"
-            for check in known.itertuples()
+            f"{name.removeprefix('error of ')} to {error:.0e} {unit}" for name, error, unit in rows
         ]
         what = ", ".join(certified) or "nothing that its case bounds"
         return f"{self.case}: the reference is certified: {what}"
@@ -111,13 +111,15 @@ class Comparisons:
         rows = self.tolerance[(self.tolerance.case == name) & self.tolerance.ratio.notna()]
         rows = rows[rows.quantity.isin(self.motions[name].columns)]
         worst = rows.sort_values("ratio").quantity.tail(1).tolist()
-        bounded = rows.dropna(subset=["allowed"]).groupby("quantity").allowed.first()
-        shown = _plotted(quantities, self.motions[name], worst)
-        motions = {
-            way: frame.droplevel(list(BY)) for way, frame in self.motions[name].groupby(level=BY)
+        bounded = rows.dropna(subset=["allowed"])[["quantity", "allowed"]]
+        allowed: Mapping[str, Any] = dict(bounded.to_numpy().tolist())
+        shown = _plotted(quantities, [*map(str, self.motions[name])], worst)
+        motions: dict[Any, pd.DataFrame] = {
+            way: frame.droplevel(list(BY))
+            for way, frame in self.motions[name].groupby(level=list(BY))
         }
         units = self.motions[name].attrs["units"]
-        return drawn(name, motions, units, shown, bounded.to_dict())
+        return drawn(name, motions, units, shown, allowed)
 
     def __str__(self) -> str:
         from .show.summary import Line

@@ -54,7 +54,7 @@ def motion_frames(report: Report) -> dict[str, pd.DataFrame]:
     for case in report.cases:
         if case.name in report.solutions:
             frames = dict(_frames(report, case, of.get(case.name, [])))
-            found[case.name] = pd.concat(frames, names=BY).sort_index()
+            found[case.name] = pd.concat(frames, names=list(BY)).sort_index()
     return found
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.scene.frame import PLANE, SPACE, frame_of
@@ -125,7 +126,7 @@ def _within(case: Case, moves: Moves, close: float) -> Array:
     return np.array(found)
 
 
-def _needed(times: Array, moves: Moves, within: Array) -> Array:
+def _needed(times: Array, moves: Moves, within: Array) -> NDArray[np.int64]:
     """Which samples are kept: the worst of those that cubics miss, until they miss none."""
     places = np.hstack([pose for pose, _ in moves.values()])
     rates = np.hstack([rate for _, rate in moves.values()])
@@ -140,7 +141,7 @@ def _needed(times: Array, moves: Moves, within: Array) -> Array:
             worst = i + 1 + int(np.argmax(off))
             kept.add(worst)
             open_ends += [(i, worst), (worst, j)]
-    return np.array(sorted(kept))
+    return np.array(sorted(kept), dtype=np.int64)
 
 
 def closer(case: Case, times: Array, states: Mapping[str, Array], size: float) -> int:
