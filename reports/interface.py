@@ -112,7 +112,7 @@ class Comparisons:
         rows = rows[rows.quantity.isin(self.motions[name].columns)]
         worst = rows.sort_values("ratio").quantity.tail(1).tolist()
         bounded = rows.dropna(subset=["allowed"])[["quantity", "allowed"]]
-        allowed: Mapping[str, Any] = dict(bounded.to_numpy().tolist())
+        allowed = {str(name): float(bar) for name, bar in bounded.to_numpy().tolist()}
         shown = _plotted(quantities, [*map(str, self.motions[name])], worst)
         motions: dict[Any, pd.DataFrame] = {
             way: frame.droplevel(list(BY))
