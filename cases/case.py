@@ -98,7 +98,7 @@ class Case:
         return self.duration / (self.samples - 1)
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: its title, what its scene is made of, and what it allows."""
+        """The HTML that a notebook shows: title, what the scene is made of, what is allowed."""
         about = f"{self.name}, {self.origin}" if str(self.origin) else self.name
         parts = {
             "bodies": self.scene.bodies,

@@ -1,4 +1,4 @@
-"""What a notebook shows of an answer in Python: its frames as HTML, its motions as a figure."""
+"""An answer in Python as a notebook shows it: frames as HTML, motions as a figure."""
 
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence

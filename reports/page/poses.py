@@ -33,7 +33,7 @@ Moves = Mapping[str, tuple[Array, Array]]
 
 @dataclass(frozen=True)
 class Poses:
-    """What is drawn of one motion; `at` says where its parts are at any time."""
+    """The poses that are drawn of one motion; `at` says where its parts are at any time."""
 
     times: Array
     moves: Moves
@@ -54,7 +54,7 @@ class Poses:
 
 
 def read(found: Mapping[str, Any]) -> Poses:
-    """What was packed, to within half a level of each column."""
+    """The poses that were packed, to within half a level of each column."""
     moves = {
         part: (_rows(pose, POSE), _rows(rates, CURVE))
         for part, (pose, rates) in found["poses"].items()
