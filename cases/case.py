@@ -5,6 +5,7 @@ And with its three kinds of number.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from html import escape
 
 import numpy as np
 
@@ -96,6 +97,30 @@ class Case:
     @property
     def interval(self) -> float:
         return self.duration / (self.samples - 1)
+
+    def _repr_html_(self) -> str:
+        """The HTML that a notebook shows: title, what the scene is made of, what is allowed."""
+        about = f"{self.name}, {self.origin}" if str(self.origin) else self.name
+        parts = {
+            "bodies": self.scene.bodies,
+            "joints": self.scene.joints,
+            "contacts": {**self.scene.contacts, **self.scene.pairs},
+            "constraints": self.scene.constraints,
+            "forces": self.scene.forces,
+        }
+        lasts = f"{self.duration:g} s, {self.samples} samples"
+        rows = {
+            **{part: ", ".join(names) for part, names in parts.items() if names},
+            **({"lasts": lasts} if self.states is None else {"states": str(self.samples)}),
+            "allows": ", ".join(map(self._allows, self.allow)),
+        }
+        cells = "".join(f"<tr><th>{k}</th><td>{escape(text)}</td></tr>" for k, text in rows.items())
+        return f"<b>{escape(self.title)}</b><br>{escape(about)}<table>{cells}</table>"
+
+    def _allows(self, name: str) -> str:
+        bar, known = self.allow[name], self.quantities
+        unit = known[name].unit if name in known else "s" if name.endswith(".time") else ""
+        return f"{name} {'unknown' if bar is None else f'{bar:g} {unit}'.rstrip()}"
 
     def mistake(self, path: tuple[str | int, ...], what: str) -> Mistake:
         """A mistake found after loading, at the place in the file that caused it."""

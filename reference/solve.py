@@ -7,7 +7,7 @@ import ctypes
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,7 @@ from .integrators.now import begun, doing
 from .islands import Island, joined, parts, together
 from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from .motion.bodies import Answer, Beside
-from .motion.follow import Followed, follow
+from .motion.follow import Followed, either, follow
 from .refusal import bounded, refusals, unreached
 from .start.assembly import as_good, assembled, closure_of
 from .start.planar_closure import PlanarClosure
@@ -40,6 +40,8 @@ from .states.answer import answered
 from .system import Array, Pose, System, instant
 from .systems import written as written_system
 from .systems.states.stated import STATED
+
+DRAWN = 1e-11  # the tolerance of a step, of a motion that is drawn and not compared
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,23 @@ def solve(case: Case) -> Solution:
     with noting() as equations, bounded(case), one_thread():
         motion, checks = _moved(case) if case.states is None else answered(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
+
+
+def between(case: Case, times: Array) -> dict[str, Array]:
+    """The states of each body (N, …) at any times (N,) [s] of a motion that `solve` has certified.
+
+    They follow from the generated mechanism to DRAWN, and are no answer of their own: what is drawn
+    between the samples.
+    """
+    states: dict[str, Array] = {}
+    coarsely = partial(either, tolerance=DRAWN)
+    with bounded(case), one_thread():
+        for part in parts(case):
+            system = mechanism(part)
+            followed = follow(system, times, by=coarsely)
+            rows = list(zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True))
+            states |= Answer(system, followed).along(rows, forces=False).states
+    return {body: states[body] for body in case.scene.bodies}
 
 
 def _moved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:

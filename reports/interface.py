@@ -17,20 +17,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..cases.case import Case
-from ..cases.mistake import CaseError, Mistake, Source
-from ..cases.scene.difference import apart
-from ..cases.scene.observe import observe
-from ..cases.scene.states import MASS_MATRIX
-from ..cases.trajectory import Trajectory
+from ..cases.mistake import CaseError, Mistake, Source, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from .batch.task_results import Progress
+    from .page.notebook import Drawing
 
 OWN = "own"  # how the column of a user's own options is called
 SMALLEST = 1e-300
-POSES = ("x", "y", "z", "angle")
+MOST = 3  # plots that a notebook shows unasked
 BY_DEFAULT = ("jobs", "tolerance")  # numbers that may be None
 Word = str | Path | Case
 
@@ -42,13 +39,43 @@ class Reference:
     motion: by time [s] each quantity that the case bounds, and where its bodies are; of an attitude
     the angle [rad] from where it began. units: of its columns. events: the name, the number from 1
     and the time [s] of each. checks: what the reference was held against, the difference, the bound
-    that it keeps, and of a bounded quantity what it is certified to.
+    that it keeps, and of a bounded quantity what it is certified to. allowed: of each quantity that
+    the case bounds.
     """
 
+    case: str
     motion: "pd.DataFrame"
     units: Mapping[str, str]
     events: "pd.DataFrame"
     checks: "pd.DataFrame"
+    allowed: Mapping[str, float]
+
+    def plot(self, quantities: str | Sequence[str] = ()) -> "Drawing":
+        """A matplotlib figure of columns of `motion`; of those that the case bounds for none.
+
+        Raises CaseError.
+        """
+        from .page.motion_frames import REFERENCE
+        from .page.notebook import drawn
+
+        shown = _plotted(quantities, [*map(str, self.motion)], self.allowed)
+        motions: dict[tuple[str, str, str], pd.DataFrame] = {REFERENCE: self.motion}
+        return drawn(self.case, motions, self.units, shown, self.allowed)
+
+    def __str__(self) -> str:
+        known = self.checks.dropna(subset=["certified"])
+        rows = known[["name", "certified", "unit"]].to_numpy().tolist()
+        certified = [
+            f"{name.removeprefix('error of ')} to {error:.0e} {unit}" for name, error, unit in rows
+        ]
+        what = ", ".join(certified) or "nothing that its case bounds"
+        return f"{self.case}: the reference is certified: {what}"
+
+    def _repr_html_(self) -> str:
+        from .page.notebook import paragraphs, table
+
+        events = table(self.events) if len(self.events) else ""
+        return paragraphs([str(self)]) + events + self.plot([*self.allowed][:MOST]).html
 
 
 @dataclass(frozen=True)
@@ -56,8 +83,9 @@ class Comparisons:
     """The results of engines on cases: the frames of the reports of the same names.
 
     summary: of each case and engine the worst quantity over what is allowed, and what agrees.
-    causes: what cures each row above its tolerance, as far as it was asked for. fails: whether a
-    verdict is FAILS.
+    motions: by case its motion by engine, setting, way and time, with the columns of
+    `Reference.motion`; the reference's is called `reference`. causes: what cures each row above its
+    tolerance, as far as it was asked for. fails: whether a verdict is FAILS.
     """
 
     summary: "pd.DataFrame"
@@ -68,6 +96,42 @@ class Comparisons:
     reference: "pd.DataFrame"
     causes: "pd.DataFrame"
     fails: bool
+    motions: "Mapping[str, pd.DataFrame]"
+
+    def plot(self, case: str = "", quantities: str | Sequence[str] = ()) -> "Drawing":
+        """A matplotlib figure of the reference and all engines, with what the case allows.
+
+        case: by its name, of several. quantities: as columns of `motions`; for none the worst one.
+        Raises CaseError.
+        """
+        from .page.motion_frames import BY
+        from .page.notebook import drawn
+
+        name = _one_of("case", case or next(iter(self.motions), ""), self.motions)
+        rows = self.tolerance[(self.tolerance.case == name) & self.tolerance.ratio.notna()]
+        rows = rows[rows.quantity.isin(self.motions[name].columns)]
+        worst = rows.sort_values("ratio").quantity.tail(1).tolist()
+        bounded = rows.dropna(subset=["allowed"])[["quantity", "allowed"]]
+        allowed = {str(name): float(bar) for name, bar in bounded.to_numpy().tolist()}
+        shown = _plotted(quantities, [*map(str, self.motions[name])], worst)
+        motions: dict[Any, pd.DataFrame] = {
+            way: frame.droplevel(list(BY))
+            for way, frame in self.motions[name].groupby(level=list(BY))
+        }
+        units = self.motions[name].attrs["units"]
+        return drawn(name, motions, units, shown, allowed)
+
+    def __str__(self) -> str:
+        from .show.summary import Line
+        from .show.table import narrow
+
+        lines = [Line(*row) for row in self.summary.itertuples(index=False)]
+        return narrow(lines) if lines else "no engine was run"
+
+    def _repr_html_(self) -> str:
+        from .page.notebook import table
+
+        return table(self.summary) + (self.plot().html if len(self.motions) == 1 else "")
 
 
 def load(word: Word | Sequence[Word] = ()) -> list[Case]:
@@ -93,6 +157,7 @@ def solve(word: Word) -> Reference:
     from ..reference.solve import solve as solved
     from .compare.events.states import mistaken
     from .compare.judge.instants import of_reference
+    from .page.motion_frames import reference_frame
     from .show import progress as shown
 
     words = _listed("cases", word, (str, Path, Case))
@@ -108,14 +173,16 @@ def solve(word: Word) -> Reference:
         solution = solved(case)
     if mistakes := mistaken(case, solution.trajectory):
         raise CaseError(mistakes)
-    motion, units = _motion(case, solution.trajectory)
+    motion = reference_frame(case, solution.trajectory)
     instants = of_reference(case, solution.trajectory)
     times = [(instant.event, instant.k, instant.time) for instant in instants]
     return Reference(
+        case=case.name,
         motion=motion,
-        units=units,
+        units=motion.attrs["units"],
         events=pd.DataFrame(times, columns=["event", "k", "time"]),
         checks=pd.DataFrame([vars(check) | {"holds": check.holds} for check in solution.checks]),
+        allowed={name: bar for name, bar in case.allow.items() if bar is not None},
     )
 
 
@@ -149,6 +216,7 @@ def run(
     from .batch.request import requested
     from .data.user_settings import made
     from .output import committed, write
+    from .page.motion_frames import motion_frames
     from .show import cures
     from .show.summary import summary
     from .system import pool
@@ -184,6 +252,7 @@ def run(
         reference=frames["reference"],
         causes=frames["causes"],
         fails=report.fails,
+        motions=motion_frames(report),
     )
 
 
@@ -308,16 +377,16 @@ def _plain(value: Any) -> Any:
     return value.tolist() if isinstance(value, np.generic | np.ndarray) else value
 
 
-def _motion(case: Case, trajectory: Trajectory) -> "tuple[pd.DataFrame, dict[str, str]]":
-    import pandas as pd
+def _plotted(asked: str | Sequence[str], known: Iterable[str], first: Iterable[str]) -> list[str]:
+    """Returns the quantities that are plotted. Raises CaseError of one that is not there."""
+    shown = _listed("quantities", asked, (str,)) or [name for name in first if name in known]
+    for name in shown:
+        _one_of("quantities", name, known)
+    return shown or list(known)[:1]
 
-    known = case.quantities
-    bounded = [name for name in case.allow if name in known and name != MASS_MATRIX]
-    poses = [f"{body}.{pose}" for body in case.scene.bodies for pose in POSES]
-    names = dict.fromkeys([*bounded, *(name for name in poses if name in known)])
-    columns: dict[str, Any] = {}
-    for name in names:
-        samples = observe(case.scene, trajectory, name)
-        columns[name] = samples if samples.ndim == 1 else apart(samples, samples[:1])
-    index = pd.Index(case.times, name="t" if case.states is None else "state")
-    return pd.DataFrame(columns, index=index), {name: known[name].unit for name in names}
+
+def _one_of(field: str, name: str, known: Iterable[str]) -> str:
+    if name not in (names := list(known)):
+        hint = nearest(name, names) or f"; there are {', '.join(names)}"
+        raise CaseError([Mistake(field, 0, 0, "", f"no such one: {name!r}{hint}")])
+    return name

@@ -332,6 +332,17 @@ class RowError(Exception):
     """A row that FAILS, as it is to be read."""
 
 
+def _size_text(row: "Comparison") -> str:
+    """How far off a row is, and when: the line that pytest's short summary shows the beginning of.
+
+    As `×7.92 of 0.01 rad at 2.9 s`; of what has no number its verdict and its reason.
+    """
+    if row.ratio is None or row.allowed is None:
+        return f"{row.verdict}: {row.because}" if row.because else row.verdict
+    when = "" if row.when is None else f" at {row.when:.3g} s"
+    return f"×{row.ratio:.3g} of {f'{row.allowed:.3g} {row.unit}'.rstrip()}{when}"
+
+
 def _row_text(row: "Comparison") -> str:
     """Returns all that is known of a row, one column a line."""
     kept = {k: v for k, v in asdict(row).items() if v not in (None, "")}
@@ -383,17 +394,18 @@ class ComparisonItem(CaseItem):
         self.user_properties += [(name, getattr(row, name)) for name in TOLD]
         if row.verdict == FAILS:
             place = f"{self.path}:{self.place('allow', row.quantity)}"
-            raise RowError(f"{place}: {row.quantity}\n{_row_text(row)}")
+            raise RowError(f"{_size_text(row)}\n{place}: {row.quantity}\n{_row_text(row)}")
         try:
             lost = worse(self.case, row)
         except ValueError as cut:
             raise RowError(str(cut)) from None
         if lost:
-            raise RowError(f"{lost}\n{_row_text(row)}")
+            raise RowError(f"{_size_text(row)}\n{lost}\n{_row_text(row)}")
         if row.verdict not in (AGREES, DEVIATES):
             if self.promised and row.verdict != REFUSED:
                 place = f"{self.path}:{self.place('allow', row.quantity)}"
-                raise RowError(f"{place}: {row.quantity}, by your own settings\n{_row_text(row)}")
+                whose = f"{place}: {row.quantity}, by your own settings"
+                raise RowError(f"{_size_text(row)}\n{whose}\n{_row_text(row)}")
             pytest.xfail(" ".join(line(row).split()))
 
     @property

@@ -15,6 +15,8 @@ class Check:
     """One comparison of two answers: `difference` relative to the size, and its bound.
 
     certified: what is known of an observed quantity, in its unit, where the check is about one.
+    measured: whether the bound follows from how far two answers are apart. Of a motion that is not
+    sensitive that is rounding's, and another on another processor.
     """
 
     name: str
@@ -22,6 +24,7 @@ class Check:
     bound: float
     certified: float | None = None
     unit: str = ""
+    measured: bool = False
 
     @property
     def holds(self) -> bool:

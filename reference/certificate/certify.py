@@ -79,12 +79,13 @@ def certify(
     if system is not generated:
         others["generated"], found["generated events"] = built.trajectory(times), built.followed
         off = compared(motion, others["generated"])
-        checks.append(Check("generated motion", off, max(GENERATED, _looser(apart))))
+        checks.append(Check("generated motion", off, max(GENERATED, _looser(apart)), measured=True))
         checks += reaction_checks(written, built, generated, times)
     own, known = max(_own(followed), _looser(apart)), apart
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
-        checks.append(Check("closed form", compared(motion, others["closed form"]), own))
+        off = compared(motion, others["closed form"])
+        checks.append(Check("closed form", off, own, measured=True))
     drifted = apart * float(times[-1] - times[0])  # s: as large a part of the time
     ends = any(map(_rests, followed.changes))
     alone = max(system.blurred if ends else 0.0, untimed(system, followed))
@@ -175,10 +176,12 @@ def _events(
     close = instant(until)
     for name, other in found.items():
         if followed.changes or other.changes:
-            yield Check(name, _events_apart(followed, other), max(OTHER_EVENTS * close, late))
+            off, bound = _events_apart(followed, other), max(OTHER_EVENTS * close, late)
+            yield Check(name, off, bound, measured=True)
     events = system.closed_events(until)
     if events is not None and (events or followed.events):
-        yield Check("closed events", _known(followed, events), max(OWN_EVENTS * close, late))
+        bound = max(OWN_EVENTS * close, late)
+        yield Check("closed events", _known(followed, events), bound, measured=True)
 
 
 def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
@@ -209,7 +212,7 @@ def _drift(system: System, followed: Followed, bound: float) -> Iterator[Check]:
         places = np.concatenate([system.modes[mode].parted(y)[0] for _, mode, y in steps])
         size = worst(np.abs(places)) or 1.0
         largest = worst(worst(np.abs(residual)) for residual in found)
-        yield Check("constraint drift", largest / size, bound)
+        yield Check("constraint drift", largest / size, bound, measured=True)
 
 
 def _impossible(system: System, followed: Followed) -> int:

@@ -57,7 +57,7 @@ def prescribed(
     A drive is held by its rate, so its place sums up the integrator's errors, as all places do.
     """
     if found := [*_drives(case, motion, size), *_blades(case, motion, size)]:
-        yield Check("drives follow their laws", worst(found), own)
+        yield Check("drives follow their laws", worst(found), own, measured=True)
     if found := [*_points(case, generated, size)]:
         yield Check("driven points follow their laws", worst(found), ALGEBRA)
     if found := [*_forces(case, motion, generated)]:
@@ -158,9 +158,9 @@ def constraint_checks(case: Case, motion: Trajectory, size: Size, own: float) ->
     seen, joints = motion_of(case.scene, motion), case.scene.joints.values()
     turned = [size.apart("rad", _turned(joint, seen), 0.0) for joint in joints]
     if gaps:
-        yield Check("joints hold", worst([*gaps, *turned]), own)
+        yield Check("joints hold", worst([*gaps, *turned]), own, measured=True)
     if slips := [size.apart("m/s", slip, 0.0) for slip in _slips(case, motion)]:
-        yield Check("nothing slips", worst(slips), own)
+        yield Check("nothing slips", worst(slips), own, measured=True)
 
 
 def _gaps(case: Case, motion: Trajectory) -> Iterator[Array]:

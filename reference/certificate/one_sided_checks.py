@@ -127,9 +127,10 @@ def one_sided_checks(
         worst(np.maximum(0.0, -side.gap(steps))[side.on(steps)]) / size.of(side.unit)
         for side in every
     ]
-    yield Check("nothing passes what holds it", worst(passed), own)
+    yield Check("nothing passes what holds it", worst(passed), own, measured=True)
     if known := [side for side in every if side.push in motion.reactions]:
-        yield Check("what presses touches", worst(_pressing(known, seen, size)), own)
+        pressing = worst(_pressing(known, seen, size))
+        yield Check("what presses touches", pressing, own, measured=True)
     blows = [_Blow.of(scene, answer, first, last, size) for first, last in _at_once(case, changes)]
     if told := [each for blow in blows for each in blow.off(every)]:
         yield Check("blows are the file's", worst(told), BLOWS)

@@ -4,10 +4,12 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from math import ceil, inf, log10
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
 from ...engines.engine import Engine
+from ...reference.certificate.agreement import Check
 from ...reference.solve import Solution
 from ..compare.events.states import mistaken
 from ..compare.judge.instants import of_reference
@@ -42,6 +44,8 @@ from .tasks import Pair
 from .trials import Tried, tried
 
 OF_BOUND = 0.1  # of what a check must keep: below it a difference is its rounding
+ROUNDING = 1e-9  # of a size: below it bounds are of rounding, and so are all digits below them
+EDGE = 1e-9  # of an exponent: a bound of 1e-9 is one, whatever its logarithm's last digit
 
 RUNS = 30  # about, of an engine on a case: three ways, two ladders, five rungs
 
@@ -163,20 +167,33 @@ def _explain(
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:
-    return [
-        Certificate(
-            case=case.name,
-            source=str(case.origin),
-            system=solution.system,
-            check=check.name,
-            difference=round_to_floor(check.difference, OF_BOUND * check.bound),
-            bound=check.bound,
-            certified=check.certified,
-            unit=check.unit,
-            verdict="holds" if check.holds else FAILS,
-        )
-        for check in solution.checks
-    ]
+    return [_certificate(case, solution, check) for check in solution.checks]
+
+
+def _certificate(case: Case, solution: Solution, check: Check) -> Certificate:
+    bound = _bound(check)
+    least = bound if bound <= ROUNDING and check.holds else OF_BOUND * bound
+    return Certificate(
+        case=case.name,
+        source=str(case.origin),
+        system=solution.system,
+        check=check.name,
+        difference=round_to_floor(check.difference, least),
+        bound=bound,
+        certified=check.certified,
+        unit=check.unit,
+        verdict="holds" if check.holds else FAILS,
+    )
+
+
+def _bound(check: Check) -> float:
+    """The bound as it is written: of a measured one that is kept a power of a thousand above it.
+
+    Its own digits are rounding's, and of a run on another processor others.
+    """
+    if not (check.measured and check.holds and 0.0 < check.bound < inf):
+        return check.bound
+    return max(ROUNDING, 1000.0 ** ceil(log10(check.bound) / 3 - EDGE))
 
 
 # Causes in a row's last column: its instant, what is declared of it, and what cures it.

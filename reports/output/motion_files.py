@@ -17,7 +17,7 @@ from ...cases.scene.observe import observe
 from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array
 from ..batch.suite import Report
-from ..compare.trial.run import Samples, sample_columns
+from ..compare.trial.run import Samples
 from ..data.ownership import unasked
 from ..system.replace import replace
 
@@ -113,7 +113,7 @@ def poses(report: Report, case: Case) -> pd.DataFrame:
 
     The reference is called `reference`, without a setting.
     """
-    reference = sample_columns(report.solutions[case.name].trajectory)
+    reference = report.solutions[case.name].trajectory.states
     parts = list(_rows(("reference", "", ""), case, case.times, reference))
     for one in report.tried:
         if one.pair.case.name == case.name:

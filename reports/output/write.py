@@ -58,7 +58,8 @@ def tables(report: Report, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
 def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certificate]:
     """Certified errors up to the next power of ten, and none below a millionth of `allow`.
 
-    What is smaller is rounding's, and another on another machine; a run's own rows tell it all.
+    So is the share of the smallest bound that one takes, as far as it is written at all. What is
+    smaller is rounding's, and another on another machine; a run's own rows tell it all.
     """
     least = {
         (case.name, f"{ERROR}{name}"): KNOWN * (allow or 0.0)
@@ -68,7 +69,11 @@ def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certif
     return [
         row
         if row.certified is None
-        else changed(row, certified=_known(row.certified, least.get((row.case, row.check), 0.0)))
+        else changed(
+            row,
+            certified=_known(row.certified, least.get((row.case, row.check), 0.0)),
+            difference=_known(row.difference, 0.0),
+        )
         for row in rows
     ]
 

@@ -81,6 +81,7 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
         cases = "case" if len(found) == 1 else "cases"
         yield {
             "says": f"keeps {len(usual)} of {len(found)} {cases} about {theme}" if first else "",
+            "most": 2 * len(usual) >= len(found),
             "theme": theme,
             "engine": engine,
             "tolerance": tolerance,

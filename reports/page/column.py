@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ...engines import SETTINGS, place
 from ..batch.selection import BOOK
 from ..data.row import Comparison, Instant, Rungs, StepError
+from ..data.spoken import spoken
 
 WAYS = {"native": 0, "driver": 1, "law": 2}
 
@@ -31,7 +32,7 @@ class Column:
     @property
     def title(self) -> str:
         """Its name for a person."""
-        way = "" if self.realised == "native" else f" + {self.realised}"
+        way = "" if self.realised == "native" else f" + {spoken(self.realised)}"
         return f"{self.engine} {self.setting}{way}"
 
 
@@ -42,7 +43,12 @@ def column(row: Comparison | Rungs | StepError | Instant) -> Column:
 
 def columns(rows: Iterable[Comparison]) -> list[Column]:
     """Returns every column of the rows in order, the book's approximations last."""
-    return sorted({column(row) for row in rows}, key=_place)
+    return ordered(map(column, rows))
+
+
+def ordered(found: Iterable[Column]) -> list[Column]:
+    """Returns each of them once, by engine and setting, the book's approximations last."""
+    return sorted(set(found), key=_place)
 
 
 def _place(one: Column) -> tuple[bool, str, float, str, int]:

@@ -17,6 +17,7 @@ from ..data.row import (  # fmt: skip
     Rungs,
 )
 from ..data.short_numbers import milliseconds
+from ..data.spoken import spoken
 from .column import Column, column
 
 SHADES = (1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0)
@@ -55,7 +56,7 @@ class Cell:
         """The cell in words, for people who cannot see colours."""
         if self.why:
             return self.why
-        most = f"{self.beyond} of {self.judged} beyond" if self.beyond else "all within"
+        most = f"{self.beyond} of {self.judged} too far off" if self.beyond else "all within"
         parts = [most]
         if self.worst and self.ratio is not None:
             parts.append(f"worst {self.worst} at {short(self.ratio)} of what is allowed")
@@ -81,7 +82,7 @@ def cells(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> dict[tuple[str,
 def _cell(rows: Sequence[Comparison], ladders: Sequence[Rungs]) -> Cell:
     judged = [row for row in rows if row.verdict != REFUSED]
     if not judged:
-        return Cell(REFUSED, "–", why=f"{REFUSED}: {rows[0].because}")
+        return Cell(REFUSED, "–", why=f"{spoken(REFUSED)}: {rows[0].because}")
     sizes = [(row.ratio, row) for row in judged if row.ratio is not None]
     beyond = sum(not ratio <= 1.0 for ratio, _ in sizes)
     kind = _kind(judged, beyond)

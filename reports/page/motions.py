@@ -8,17 +8,19 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.scene.frame import SPACE
 from ...cases.scene.observe import observe
-from ...cases.scene.point import CENTER, GROUND
+from ...cases.scene.point import CENTER
 from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
+from ...reference.solve import between
 from ..batch.suite import Report
 from ..batch.trials import Tried
-from ..compare.trial.run import sample_columns
+from . import poses
 from .pack import Packed, packed, packed_by_size
 from .sketch import extent, sketch
 
-FRAMES = 61  # of an animation at most
 POINTS = 128  # of a curve at most
+MOST = 64  # times as many poses as samples at most are looked at for the reference to be drawn
+HELD = 2  # parts of a sample: an engine's joints would be drawn two pixels more open than they are
 TRAIL = 400  # points of what a body has drawn behind it: twenty loops of twenty points
 SEEN = 1 / 400  # of what the motion reaches: nearer than that, two drawings are one
 
@@ -44,22 +46,34 @@ def way(one: Tried) -> str:
 
 def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
     """The drawing, the poses of the reference and of what differs from it, and all curves."""
-    poses = sample_columns(reference)
-    size = extent(case.scene, poses)
+    size = extent(case.scene, reference.states)
     ran = [one for one in tried if one.outcome.samples]
-    frames = thinned(case.samples, FRAMES)
-    ghosts = {way(one): _ghost(one, poses, case, size) for one in ran}
+    ghosts = {way(one): _ghost(one, reference.states, case, size) for one in ran}
+    times, states = _closely(case, reference, size)
+    moves = {**poses.moves(states), **poses.driven(case, times)}
     return {
         "axes": case.scene.frame.dimension,
         "size": float(f"{size:.4g}"),
         "sketch": sketch(case.scene, size),
-        "times": packed(case.times[frames]),
-        "poses": _columns(poses, frames) | _driven(case, frames),
-        "trail": _trail(case, reference),
+        **poses.drawn(case, times, moves, poses.CLOSE * size).packed(),
+        "trail": _trail(case, times, states),
         "ghosts": {name: ghost for name, ghost in ghosts.items() if ghost},
         "covered": sorted(name for name, ghost in ghosts.items() if ghost is None),
         "curves": _curves(case, reference, ran),
     }
+
+
+def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Mapping[str, Array]]:
+    """The motion at its samples, and between them too where they are too few to be drawn."""
+    times, states = case.times, reference.states
+    while (
+        len(times) < MOST * case.samples and (parts := poses.closer(case, times, states, size)) > 1
+    ):
+        whole = np.arange(len(times))
+        finer = np.linspace(0, len(times) - 1, parts * (len(times) - 1) + 1)
+        times = np.interp(finer, whole, times)  # every sample is one of them
+        states = between(case, times)
+    return times, states
 
 
 def thinned(count: int, most: int) -> Any:
@@ -67,7 +81,7 @@ def thinned(count: int, most: int) -> Any:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
-def _trail(case: Case, reference: Trajectory) -> list[Packed] | None:
+def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[Packed] | None:
     """Returns in space the way of the first place that is observed; None where there is none."""
     n, scene = case.scene.frame.dimension, case.scene
     observed = [name.rpartition(".")[0] for name in case.allow if name.endswith((".x", ".z"))]
@@ -78,64 +92,41 @@ def _trail(case: Case, reference: Trajectory) -> list[Packed] | None:
     if n == 2 or not of_bodies:
         return None
     body, _, point = of_bodies[0]
-    states = scene.bodies[body].point(reference.states[body], point or CENTER)
-    way = between(case.times, states[:, :n], states[:, n:], TRAIL)
+    states = scene.bodies[body].point(moved[body], point or CENTER)
+    fine = np.linspace(times[0], times[-1], TRAIL)
+    way = poses.cubic(times, states[:, :n], states[:, n:], fine)  # lines would be a polygon
     return [packed(column) for column in np.ascontiguousarray(way.T)]
 
 
-def between(times: Array, places: Array, velocities: Array, count: int) -> Array:
-    """Returns (count, n) places evenly in time, by cubics through samples (N, n) and velocities.
+def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, size: float) -> Any:
+    """Its poses; None where the reference's drawing covers them, nothing where it has none.
 
-    Few samples of a loop would be a polygon.
+    held: whether it is drawn at its samples alone, because nobody knows the way between them.
     """
-    fine = np.linspace(times[0], times[-1], count)
-    k = np.clip(np.searchsorted(times, fine, side="right") - 1, 0, len(times) - 2)
-    h = (times[k + 1] - times[k])[:, None]
-    s = (fine - times[k])[:, None] / h
-    ends = places[k] * (1 + 2 * s) * (1 - s) ** 2 + places[k + 1] * s**2 * (3 - 2 * s)
-    return ends + h * (velocities[k] * s * (1 - s) ** 2 - velocities[k + 1] * s**2 * (1 - s))
-
-
-def _ghost(one: Tried, poses: Mapping[str, Array], case: Case, size: float) -> Any:
-    """Its poses; None where the reference's drawing covers them, nothing where it has none."""
-    own = {body: one.outcome.samples[body] for body in poses if body in one.outcome.samples}
+    own = {body: one.outcome.samples[body] for body in reference if body in one.outcome.samples}
     if not own or not all(np.all(np.isfinite(rows)) for rows in own.values()):
         return {}  # a quantity may be finite where a body is lost
-    times = one.pair.sampled.times
-    frames = thinned(len(times), FRAMES)
-    if not one.outcome.wanted and _covered(own, poses, case, size):
+    if not one.outcome.wanted and _covered(own, reference, case, size):
         return None
-    return {"times": packed(times[frames]), "poses": _columns(own, frames)}
+    times, moves = one.pair.sampled.times, poses.moves(own)
+    if len(own) == len(reference) and poses.closer(case, times, own, size) > HELD:
+        return {**poses.Poses(times, moves).packed(), "held": True}
+    return poses.drawn(case, times, moves, poses.GHOST * size).packed()
 
 
-def _covered(own: Mapping[str, Array], poses: Mapping[str, Array], case: Case, size: float) -> bool:
+def _covered(
+    own: Mapping[str, Array], reference: Mapping[str, Array], case: Case, size: float
+) -> bool:
     """Whether no place is off by more than is seen, and no attitude by as much at that size."""
-    n = case.scene.frame.dimension
+    place, attitude = case.scene.frame.place, case.scene.frame.attitude
     for body, rows in own.items():
-        off, other = rows - poses[body], rows + poses[body]
-        turns = np.abs(off[:, n:])
-        if n == len(SPACE.axes):  # a quaternion and its opposite are one attitude
-            turns = np.minimum(turns.max(axis=1), np.abs(other[:, n:]).max(axis=1))
-        if np.max(np.abs(off[:, :n])) > SEEN * size or np.max(turns) > SEEN:
+        off, other = rows - reference[body], rows + reference[body]
+        turns = np.abs(off[:, attitude])
+        if case.scene.frame is SPACE:  # a quaternion and its opposite are one attitude
+            turns = np.minimum(turns.max(axis=1), np.abs(other[:, attitude]).max(axis=1))
+        if np.max(np.abs(off[:, place])) > SEEN * size or np.max(turns) > SEEN:
             return False
     return True
-
-
-def _columns(poses: Mapping[str, Array], frames: Any) -> dict[str, list[Packed]]:
-    return {
-        body: [packed(column) for column in np.ascontiguousarray(rows[frames].T)]
-        for body, rows in poses.items()
-    }
-
-
-def _driven(case: Case, frames: Any) -> dict[str, list[Packed]]:
-    """The places of the ground's driven points, which are drawn as bodies without a turn."""
-    n = case.scene.frame.dimension
-    return {
-        f"{GROUND}.{name}": [packed(column) for column in point.states(case.times[frames]).T[:n]]
-        for name, point in case.scene.points.items()
-        if point.driven
-    }
 
 
 def _curves(case: Case, reference: Trajectory, ran: Sequence[Tried]) -> dict[str, Any]:

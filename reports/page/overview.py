@@ -5,13 +5,16 @@ from itertools import groupby
 from typing import Any
 
 from ...engines import place
+from ..batch.selection import BOOK
 from ..data.row import AGREES, REFUSED, Comparison
-from ..show.picture import drawn, worst
+from ..data.short_numbers import factor
+from ..data.spoken import SETTINGS, spoken
+from ..show.picture import Curve, curves, drawn, worst
 from .column import Column
 from .folder import Folder
 from .heat import Cell
 from .motions import Motion
-from .paint import svg
+from .paint import THEIRS, svg
 
 Cells = Mapping[tuple[str, Column], Cell]
 SHIPPED = {"shipped": "as shipped", "recommended": "as its documentation recommends"}
@@ -26,14 +29,27 @@ FIRST = (
 
 def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[str, Any]:
     """The numbers of the head. Rows that are refused are counted by themselves."""
+    shares = list(curves(folder.comparisons))
+    many = bool(shares) and len({row.case for row in folder.comparisons}) > 1
     versions = {(row.engine, row.version) for row in folder.comparisons if row.engine != "book"}
     return {
         "cases": len({row.case for row in folder.comparisons}),
         "versions": sorted(versions),
         "shares": [_share(one, cells) for one in columns],
-        "result": result(folder.comparisons),
-        "picture": svg(drawn(folder.comparisons), PICTURE) if worst(folder.comparisons) else "",
+        "result": result(folder.comparisons) if many else result_of_one(cells),
+        "picture": svg(drawn(folder.comparisons, small=True), PICTURE) if many else "",
+        "legend": [_key(curve) for curve in shares] if many else [],
     }
+
+
+def _key(curve: Curve) -> dict[str, str]:
+    """Its label, and the colour and dashes of its line, as SVG has them."""
+    _, setting = curve.name.split(" ", 1)
+    dash = " ".join(str(2 * x) for x in curve.dash[1]) if isinstance(curve.dash, tuple) else "none"
+    meaning = SETTINGS.get(setting)
+    label = curve.label.replace(":", f" ({meaning}):", 1) if meaning else curve.label
+    colour = dict(THEIRS).get(curve.colour.lower(), curve.colour)
+    return {"label": label, "colour": colour, "dash": dash}
 
 
 def result(rows: Sequence[Comparison]) -> str:
@@ -53,12 +69,48 @@ def result(rows: Sequence[Comparison]) -> str:
     return f"{'; '.join(engines)}." if engines else "No case ran in any engine."
 
 
+def result_of_one(cells: Cells) -> str:
+    """Says in one sentence with which settings each engine keeps every quantity of the one case."""
+    said = []
+    own = sorted((at for at in cells if at[1].engine != BOOK), key=lambda at: _order(at[1]))
+    for engine, of in groupby(own, key=lambda at: at[1].engine):
+        ran = [(at, cells[at]) for at in of if cells[at].kind != REFUSED]
+        within = [_as(column) for (_, column), cell in ran if cell.within == cell.judged]
+        off = [
+            f"{_as(column)} ({_far(cell)})"
+            for (_, column), cell in ran
+            if cell.within != cell.judged
+        ]
+        what = "them" if said else f"all quantities of {own[0][0]} within their tolerances"
+        if within:
+            said.append(f"{engine} keeps {what} {_listed(within)}")
+            said[-1] += f", but not {_listed(off, 'or')}" if off else ""
+        elif off:
+            said.append(f"{engine} does not keep {what} {_listed(off, 'or')}")
+        else:
+            said.append(f"{engine} does not support this scene")
+    return f"{'; '.join(said)}." if said else "The case ran in no engine."
+
+
+def _order(column: Column) -> tuple[str, float, str]:
+    return column.engine, place(column.setting), column.key
+
+
+def _as(column: Column) -> str:
+    way = spoken(column.realised)
+    return _said(column.setting) + (f" with {way}" if way else "")
+
+
+def _far(cell: Cell) -> str:
+    return f"{cell.worst} {factor(cell.ratio)}" if cell.worst and cell.ratio else cell.text
+
+
 def _said(setting: str) -> str:
     return SHIPPED.get(setting, setting if setting == "tuned" else f"with {setting}")
 
 
-def _listed(words: Sequence[str]) -> str:
-    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
+def _listed(words: Sequence[str], last: str = "and") -> str:
+    return f" {last} ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 
 def moving(

@@ -1,7 +1,7 @@
-"""Numbers as letters: twelve bits each, two letters that markup takes as they are.
+"""Numbers as letters: six bits a letter, of those that markup takes as they are.
 
-A picture has some hundred points across, so 4096 levels are more than it shows; as decimal digits
-the same curves would be three times as long.
+A picture has some hundred points across, so the 4096 levels of two letters are more than a curve
+shows; as decimal digits it would be three times as long. What turns often needs three letters.
 """
 
 import math
@@ -13,32 +13,32 @@ from ...cases.trajectory import Array
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
 BASE = len(LETTERS)
-LEVELS = BASE**2
-HALF = LEVELS // 2
+CURVE, POSE = 2, 3  # letters of a number: a hundred turns in 4096 levels would be seen to jump
+HALF = BASE**CURVE // 2
 DIGITS = 6  # of a step, and of where the levels begin: more would be other digits elsewhere
 DECADES = 9.0  # of an error below its largest: what is smaller is drawn as nothing
 
 Packed = tuple[float, float, str]
-"""Where the levels begin, what one is, and two letters a number."""
+"""Where the levels begin, what one is, and the letters of all numbers."""
 
 
-def packed(numbers: Array) -> Packed:
+def packed(numbers: Array, width: int = CURVE) -> Packed:
     """In even levels over the range of the numbers (N,). Raises ValueError of what is not finite.
 
-    Level k is low + k step.
+    Level k is low + k step; width: how many letters a number has.
     """
     _finite(numbers)
     low, high = float(np.min(numbers)), float(np.max(numbers))
-    step = _few((high - low) / (LEVELS - 1))
+    step = _few((high - low) / (BASE**width - 1))
     low = _of_step(low, step)
     levels = np.zeros(len(numbers)) if step == 0.0 else np.round((numbers - low) / step)
-    return low, step, _letters(levels)
+    return low, step, _letters(levels, width)
 
 
-def unpacked(found: Sequence[float | str]) -> Array:
+def unpacked(found: Sequence[float | str], width: int = CURVE) -> Array:
     """(N,) to within half a level."""
     low, step, letters = found
-    return float(low) + float(step) * _levels(str(letters))
+    return float(low) + float(step) * _levels(str(letters), width)
 
 
 def packed_by_size(numbers: Array) -> Packed:
@@ -71,14 +71,17 @@ def _finite(numbers: Array) -> None:
         raise ValueError("a number that is not finite has no level")
 
 
-def _letters(levels: Array) -> str:
-    whole = np.clip(levels, 0, LEVELS - 1).astype(np.int64).tolist()
-    return "".join(LETTERS[k // BASE] + LETTERS[k % BASE] for k in whole)
+def _letters(levels: Array, width: int = CURVE) -> str:
+    whole = np.clip(levels, 0, BASE**width - 1).astype(np.int64)
+    places = [whole // BASE**k % BASE for k in reversed(range(width))]
+    return "".join(LETTERS[k] for k in np.stack(places, axis=1).ravel().tolist())
 
 
-def _levels(letters: str) -> Array:
+def _levels(letters: str, width: int = CURVE) -> Array:
     places = np.array([LETTERS.index(letter) for letter in letters], dtype=np.float64)
-    return places[0::2] * BASE + places[1::2]
+    weights = float(BASE) ** np.arange(width)[::-1]
+    levels: Array = places.reshape(-1, width) @ weights
+    return levels
 
 
 def _of_step(low: float, step: float) -> float:

@@ -22,6 +22,7 @@ from ..batch.suite import Report
 from ..data import runs
 from ..data.ownership import unasked
 from ..data.row import FAILS, MUTANTS, Certificate
+from ..data.spoken import WORDS, spoken
 from ..output import write
 from ..system.replace import replace
 from ..system.temporary_folder import passing
@@ -76,7 +77,8 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         script=_text(f"{name}.js" for name in SCRIPTS),
         motions=embedded(motions),
         rows=embedded(
-            rows(folder, shown) | {"work": work(folder.comparisons, folder.steps, about)}
+            rows(folder, shown)
+            | {"work": work(folder.comparisons, folder.steps, about), "spoken": WORDS}
         ),
     )
 
@@ -91,6 +93,7 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
     )
     environment.filters["breakable"] = _breakable
+    environment.filters["spoken"] = spoken
     environment.filters["tidy"] = lambda text: POWER.sub(r"\1", str(text))
     return environment
 

@@ -15,6 +15,7 @@ from .heat import short
 from .motions import Motion
 from .pack import unpacked, unpacked_by_size
 from .paint import INK, style
+from .poses import read
 
 ROOM = 0.9  # of the tube's height, above and below it: further off is out of the picture
 LEAST = 1e-9  # of error over allowed: below that nothing is drawn
@@ -156,21 +157,20 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
 
     The scale is the mechanism's: a ghost that fell away leaves the picture.
     """
-    frames = _frames(motion["poses"])
-    last = len(unpacked(motion["times"])) - 1
-    for k in sorted({round(last * i / (INSTANTS - 1)) for i in range(INSTANTS)}):
+    drawn = read(motion)
+    shares = np.linspace(0.0, 1.0, INSTANTS)
+    frames = drawn.at(drawn.times[0] + shares * np.ptp(drawn.times))
+    for k, share in enumerate(shares.tolist()):
         now = {part: rows[k] for part, rows in frames.items()}
-        _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * (k / last), lw=1.6)
-        if k == last:
-            _links(axes, motion, now)
+        _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * share, lw=1.6)
+    _links(axes, motion, {part: rows[-1] for part, rows in frames.items()})
     if motion["trail"]:
         trail = _seen(np.stack([unpacked(c) for c in motion["trail"]], axis=1))
         axes.plot(*trail.T, color=INK, lw=0.8, alpha=0.5)
     axes.set_aspect("equal", adjustable="datalim")
     limits = axes.dataLim.frozen()
     for one in ghosts:
-        told = motion["ghosts"][one.key]["poses"]
-        ends = {part: rows[-1] for part, rows in _frames(told).items()}
+        ends = {part: pose[-1] for part, (pose, _) in read(motion["ghosts"][one.key]).moves.items()}
         code = style(one, ghosts)["color"]
         _bodies(axes, motion, ends, color=code, ls="--", lw=1.3, label=one.title)
     axes.dataLim.set(limits)  # what drifts far away is cut off
@@ -179,13 +179,6 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
         axes.plot(*_seen(np.array([place])).T, marker=6, color=INK, ms=8, alpha=0.6)
     axes.set_axis_off()
     axes.set_title(f"{INSTANTS} instants, the last in full ink", fontsize=9, loc="left")
-
-
-def _frames(poses: Mapping[str, Any]) -> dict[str, Array]:
-    """By part (N, …)."""
-    return {
-        part: np.stack([unpacked(c) for c in columns], axis=1) for part, columns in poses.items()
-    }
 
 
 def _bodies(axes: Any, motion: Motion, now: Pose, **look: Any) -> None:

@@ -3,7 +3,8 @@
 `python -m textmech.reports.show.readme` draws it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from io import StringIO
 from math import inf
 from typing import Any
@@ -19,6 +20,7 @@ from ..data.row import REFUSED, Comparison
 
 NAME = "shares.svg"
 SIZE = (7.2, 3.4)  # inches
+SMALL = (4.8, 2.3)  # inches: on a telephone a letter of its text is 9 pixels high
 LEAST, MOST = 1e-6, 1e4  # × allowed
 COLOURS = ("#0072B2", "#D55E00", "#009E73")  # told apart by the colour-blind, too
 OWN = (("#CC79A7", (0, (2, 1))), ("#E69F00", (0, (1, 2))), ("#56B4E9", (0, (8, 2))))
@@ -42,20 +44,46 @@ def picture(rows: Sequence[Comparison]) -> str:
     return "".join(f"{line.rstrip()}\n" for line in out.getvalue().splitlines())
 
 
-def drawn(rows: Sequence[Comparison]) -> Figure:
-    """Draws a curve for each engine's setting; a person's own have colours of their own."""
+@dataclass(frozen=True)
+class Curve:
+    """The curve of an engine's setting: how far off each case is at worst, and how it is drawn."""
+
+    name: str
+    ratios: Sequence[float]
+    colour: str
+    dash: Any
+
+    @property
+    def label(self) -> str:
+        """Its name, and in which share of the cases all is within."""
+        within = sum(ratio <= 1 for ratio in self.ratios) / len(self.ratios)
+        return f"{self.name}: {within:.0%} of {len(self.ratios)}"
+
+
+def curves(rows: Sequence[Comparison]) -> Iterator[Curve]:
+    """Yields the curve of each engine's setting; a person's own have colours of their own."""
+    shares = worst(rows)
+    engines = sorted({engine for engine, _ in shares})
+    own = [key for key in shares if key[1] not in LINES]
+    for (engine, setting), ratios in shares.items():
+        look = (COLOURS[engines.index(engine) % len(COLOURS)], LINES.get(setting))
+        if (engine, setting) in own:
+            look = OWN[own.index((engine, setting)) % len(OWN)]
+        yield Curve(f"{engine} {setting}", ratios, *look)
+
+
+def drawn(rows: Sequence[Comparison], *, small: bool = False) -> Figure:
+    """Draws all curves; small: as a telephone shows them, with the legend left to the page."""
     with rc_context(STYLE):
-        figure = Figure(figsize=SIZE, layout="constrained")
+        figure = Figure(figsize=SMALL if small else SIZE, layout="constrained")
         axes = figure.add_subplot()
-        shares = worst(rows)
-        engines = sorted({engine for engine, _ in shares})
-        own = [key for key in shares if key[1] not in LINES]
-        for (engine, setting), ratios in shares.items():
-            look = (COLOURS[engines.index(engine) % len(COLOURS)], LINES.get(setting))
-            if (engine, setting) in own:
-                look = OWN[own.index((engine, setting)) % len(OWN)]
-            _curve(axes, ratios, look, f"{engine} {setting}")
+        for curve in curves(rows):
+            _curve(axes, curve)
         _frame(axes)
+        if small:
+            axes.set_xlabel("worst error, over what is allowed")
+        else:
+            axes.legend(loc="upper left", title="within the tolerance", frameon=False)
     return figure
 
 
@@ -71,21 +99,20 @@ def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
     return {key: sorted(found.values()) for key, found in sorted(cases.items())}
 
 
-def _curve(axes: Axes, ratios: Sequence[float], look: tuple[str, Any], name: str) -> None:
+def _curve(axes: Axes, curve: Curve) -> None:
     """Which share of the cases is at worst so far off."""
+    ratios = curve.ratios
     x = np.clip([LEAST, *ratios, MOST], LEAST, MOST)
     finite = sum(ratio <= MOST for ratio in ratios)
     counts = [0, *np.minimum(np.arange(1, len(ratios) + 1), finite), finite]
-    within = sum(ratio <= 1 for ratio in ratios) / len(ratios)
-    label = f"{name}: {within:.0%} of {len(ratios)}"
     axes.step(
         x,
         np.array(counts) / len(ratios),
         where="post",
-        color=look[0],
-        linestyle=look[1],
+        color=curve.colour,
+        linestyle=curve.dash,
         linewidth=1.8,
-        label=label,
+        label=curve.label,
     )
 
 
@@ -100,5 +127,4 @@ def _frame(axes: Axes) -> None:
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
     axes.set_xlabel("the worst quantity's error, over what the textbook's tolerance allows")
     axes.set_ylabel("share of the cases")
-    axes.legend(loc="upper left", title="within the tolerance", frameon=False)
     axes.spines[["top", "right"]].set_visible(False)

@@ -6,12 +6,13 @@ from itertools import groupby
 from pathlib import Path
 from textwrap import wrap
 
-from ...engines import SETTINGS
+from ...engines import SETTINGS as OFFERED
 from ..batch.selection import BOOK
 from ..batch.suite import Report
 from ..data.promised import unkept
 from ..data.row import AGREES, FAILS, Certificate, Comparison
 from ..data.short_numbers import milliseconds
+from ..data.spoken import SETTINGS, spoken
 from .console import say
 from .summary import Cures, approximations, summary
 from .table import WIDTH, narrow
@@ -36,7 +37,7 @@ def show(
     for note in without_effect(report.comparisons):
         say(note)
     counts = Counter(row.verdict for row in report.comparisons)
-    say(", ".join(f"{count} {word}" for word, count in counts.most_common()))
+    say(", ".join(f"{count} {spoken(word)}" for word, count in counts.most_common()))
     if written is not None:
         say(f"written to {written}")
 
@@ -85,7 +86,7 @@ def without_effect(rows: Sequence[Comparison]) -> Iterator[str]:
     for (case, engine), settings in found.items():
         shipped = settings.get("shipped")
         for setting in settings:
-            if setting not in SETTINGS and settings[setting] == shipped:
+            if setting not in OFFERED and settings[setting] == shipped:
                 yield f"{case}: {engine}.{setting} changes nothing: every number is shipped's"
 
 
@@ -102,25 +103,28 @@ def rows(comparisons: Sequence[Comparison]) -> Iterator[str]:
         yield ""
         yield head(group)
         yield from _wrapped(group[0].protocol, "  ")
-        names = max(len(row.quantity) for row in group)
+        names = max(len(spoken(row.quantity)) for row in group)
         units = max(len(row.unit) for row in group)
         for (_, silent, because), same in groupby(group, key=_reason):
             told = [*same]
             if silent:
-                yield from _wrapped(", ".join(row.quantity for row in told), "  ")
-                yield from _wrapped(f"{told[0].verdict}: {because}".strip(": "), REASON)
+                yield from _wrapped(", ".join(spoken(row.quantity) for row in told), "  ")
+                yield from _wrapped(f"{spoken(told[0].verdict)}: {because}".strip(": "), REASON)
                 continue
             for row in told:
                 allowed = "" if row.allowed is None else f"of {row.allowed:.1e}"
                 number = f"{row.error:8.2e} {row.unit:{units}}"
-                yield f"  {row.quantity:{names}}  {number}  {allowed:11}  {row.verdict}"
+                quantity = f"{spoken(row.quantity):{names}}"
+                yield f"  {quantity}  {number}  {allowed:11}  {spoken(row.verdict)}"
             yield from _wrapped(because, REASON)
 
 
 def head(group: Sequence[Comparison]) -> str:
     """Which engine it is in which setting, and the step of all of its rows."""
     first = group[0]
-    how = "" if first.realised == "native" else f" ({first.realised})"
+    meaning = SETTINGS.get(first.setting)
+    said = [*([meaning] if meaning else []), *filter(None, [spoken(first.realised)])]
+    how = f" ({', '.join(said)})" if said else ""
     steps = {row.step for row in group if row.step is not None}
     step = f", h = {milliseconds(steps.pop())}" if len(steps) == 1 else ""
     return f"{first.case} in {first.engine} {first.version} {first.setting}{how}{step}"

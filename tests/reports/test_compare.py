@@ -164,7 +164,9 @@ def test_the_judged_step_that_diverges_is_told_and_no_ladder_above(trial: Make) 
 def test_what_a_way_leaves_out_is_named_where_its_model_differs(trial: Make) -> None:
     one = {"simplified": "one number for friction: rail, where there are several"}
     model = row(compare(trial(rate=0.0, model=0.02, **one)))
-    assert model.because.endswith("the model: 0.02 remains for h → 0; " + one["simplified"])
+    assert model.because.endswith(
+        "does not vanish with the step: 0.02 m stay; " + one["simplified"]
+    )
     step = row(compare(trial(rate=20.0, **one)))
     assert "friction" not in step.because
 
@@ -189,7 +191,7 @@ def test_a_held_limit_that_is_further_off_than_the_run_is_no_cause(trial: Make) 
     assert found.error == pytest.approx(1.3e-2, rel=1e-9)
     assert "the step: it falls with order 1.0" in found.because
     held = row(compare(trial(model=1.2e-2)))
-    assert "the model: 0.012 remains" in held.because
+    assert "does not vanish with the step: 0.012" in held.because
 
 
 def test_one_ladder_where_the_numbers_that_follow_make_no_difference(trial: Make) -> None:

@@ -211,8 +211,8 @@ def test_what_stays_beside_an_event_is_not_the_steps() -> None:
     assert found.verdict == TEXTBOOK
     told = cause(found, simplified="one number for friction: pin")
     assert told == (
-        "beside an event no step down to h = 0.001 s helps: 0.28 to 0.28 on every rung; elsewhere "
-        "the error falls with order 2.0; one number for friction: pin"
+        "beside an event no step down to h = 0.001 s helps: 0.28 to 0.28 at every step tried; "
+        "elsewhere the error falls with order 2.0; one number for friction: pin"
     )
     usable = replace(found, usable_step=1e-3)
     assert "one number" not in cause(usable, simplified="one number")
@@ -271,7 +271,7 @@ def test_noise_beside_a_model_is_no_growth() -> None:
 
 def test_what_stays_is_said_of_the_steps_that_were_tried() -> None:
     told = cause(judge(turning(1.0, 1.4, 0.9, 1.5, 1.1), p=1))
-    assert told == "no step down to h = 0.001 s helps: 0.9 to 1.5 on every rung"
+    assert told == "no step down to h = 0.001 s helps: 0.9 to 1.5 at every step tried"
 
 
 def test_a_model_is_told_behind_an_event_too() -> None:

@@ -1,6 +1,7 @@
 """The interface for Python: the frames, and the command's own words for what is wrong."""
 
 import json
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -233,3 +234,76 @@ def test_what_there_is_not_is_an_attribute_error() -> None:
 def test_no_case_is_not_all_of_them(given: Any, said: str) -> None:
     with pytest.raises(CaseError, match=f"cases: {said}"):
         advise(given)
+
+
+@pytest.mark.slow
+def test_the_readmes_python_runs_and_prints_what_is_said(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In a terminal of any width."""
+    monkeypatch.setenv("COLUMNS", "60")
+    text = (Path(textmech.reports.__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+    exec(compile(code, "README.md", "exec"), {})
+    told = [line[2:] for line in code.splitlines() if line.startswith("# ")]
+    assert capsys.readouterr().out.splitlines() == told
+
+
+@pytest.mark.slow
+def test_a_run_has_the_motions_behind_its_rows(swing: Path) -> None:
+    """What an engine's motion is off the reference's is its row's error."""
+    found = run(swing, engines=["mujoco"])
+    (motions,) = found.motions.values()
+    assert motions.index.names == ["engine", "setting", "realised", "t"]
+    exact = solve(swing)
+    right = motions.loc["reference", "", ""]
+    pd.testing.assert_frame_equal(right, exact.motion)
+    rows = found.tolerance.set_index(["setting", "quantity"])
+    for setting in ("shipped", "tuned"):
+        own = motions.loc["mujoco", setting, "native"]
+        off = (own["rod.angle"] - right["rod.angle"]).abs().max()
+        assert off == pytest.approx(rows.error[setting, "rod.angle"], rel=1e-3, abs=1e-11)
+        assert not own.isna().any().any()
+
+
+@pytest.mark.slow
+def test_an_attitude_is_told_of_an_engine_as_of_the_reference() -> None:
+    motions = run("spinning_body", engines=["mujoco.tuned"]).motions["spinning_body"]
+    turned = [motions.loc[way]["body.attitude"] for way in
+              (("reference", "", ""), ("mujoco", "tuned", "native"))]  # fmt: skip
+    assert turned[0].max() > 1
+    assert turned[1].to_numpy() == pytest.approx(turned[0].to_numpy(), abs=1e-3)
+
+
+@pytest.mark.slow
+def test_a_figure_has_the_reference_its_tolerance_and_each_engine(swing: Path) -> None:
+    found = run(swing, engines=["mujoco"])
+    (axes,) = found.plot().axes
+    labels = [line.get_label() for line in axes.lines]
+    assert labels == ["reference", "mujoco shipped", "mujoco recommended", "mujoco tuned"]
+    (band,) = axes.collections
+    low, high = band.get_datalim(axes.transData).intervaly
+    right = solve(swing).motion["rod.angle"]
+    assert (low, high) == pytest.approx((right.min() - 0.01, right.max() + 0.01), abs=1e-3)
+    assert len(solve(swing).plot(["rod.angle", "rod.x"]).axes) == 2
+    with pytest.raises(CaseError, match=r"no such one: 'rod.angel'; did you mean 'rod.angle'"):
+        found.plot(quantities="rod.angel")
+    with pytest.raises(CaseError, match="no such one: 'swung'"):
+        found.plot("swung")
+
+
+@pytest.mark.slow
+def test_a_notebook_shows_each_answer(swing: Path) -> None:
+    """As HTML, in which nothing is cut short and a title is text, and as a picture."""
+    hostile = swing.read_text(encoding="utf-8").replace("title: ", "title: <b>x</b> ")
+    swing.write_text(hostile, encoding="utf-8")
+    (case,) = load(swing)
+    shown = case._repr_html_()
+    assert "&lt;b&gt;x&lt;/b&gt;" in shown
+    assert "rod.angle" in shown
+    found, exact = run(case, engines=["mujoco.shipped"]), solve(case)
+    assert "certified: rod.angle to" in exact._repr_html_()
+    assert all(cell in found._repr_html_() for cell in found.summary.iloc[0] if cell)
+    for answer in (found, exact):
+        assert "data:image/png;base64,iVBOR" in answer._repr_html_()
+        assert answer.plot()._repr_png_().startswith(b"\x89PNG")

@@ -64,7 +64,7 @@ def test_the_first_sample_is_named_and_no_model(trial: Make) -> None:
 def test_an_error_that_lasts_is_not_the_first_samples(trial: Make) -> None:
     found = judged(trial(rate=0.0, **SHIPPED), dict.fromkeys(range(26), 0.5))
     assert found.when == 0.0
-    assert found.because == "the model: 0.5 remains for h → 0"
+    assert found.because == "does not vanish with the step: 0.5 m stay"
 
 
 def test_the_first_steps_are_the_start_too(trial: Make) -> None:
@@ -75,7 +75,7 @@ def test_the_first_steps_are_the_start_too(trial: Make) -> None:
     found = judged(trial(rate=0.0, **coarse), {1: 98.1, 2: 60.0})
     assert found.because == "beside the start; elsewhere at most 0"
     found = judged(trial(rate=0.0, **coarse), {1: 98.1, 4: 60.0})
-    assert found.because.startswith("the model")
+    assert found.because.startswith("does not vanish with the step")
 
 
 def test_what_is_beside_an_event_is_named_after_it(trial: Make, stopping: Case) -> None:
@@ -85,7 +85,7 @@ def test_what_is_beside_an_event_is_named_after_it(trial: Make, stopping: Case) 
     assert found.because == "beside a switch at 0.401 s; elsewhere at most 0"
     named = replace(made, reference=replace(made.reference, switches=np.array([0.3, 0.5, 0.7])))
     far = judged(named, {10: 0.3})  # 100 steps away from all
-    assert far.because.startswith("the model")
+    assert far.because.startswith("does not vanish with the step")
 
 
 def test_the_name_is_the_events(trial: Make, stopping: Case) -> None:

@@ -51,6 +51,36 @@ def of_row(found: Comparison, module: Any = pytest_plugin, *, promised: bool = F
     return ended(module, "ComparisonItem", item)
 
 
+@pytest.mark.mutant("a failed row's path comes before its size")
+@pytest.mark.parametrize(
+    ("found", "line"),
+    [
+        ({"verdict": FAILS}, "×7.92 of 0.01 rad at 2.9 s"),
+        ({"verdict": BEYOND, "when": None}, "×7.92 of 0.01 rad"),
+        ({"verdict": DIVERGED, "ratio": None, "because": "it fell"}, "diverged: it fell"),
+    ],
+)
+def test_a_failure_says_first_how_large_it_is(found: dict[str, Any], line: str) -> None:
+    """For pytest's short summary shows the beginning of the first line alone."""
+    numbers = {"ratio": 7.919, "allowed": 0.01, "unit": "rad", "when": 2.9, "because": ""}
+    told = replace(row(), **{**numbers, **found})
+
+    def said(module: Any = pytest_plugin) -> str:
+        item = SimpleNamespace(
+            row=lambda: told, case=SimpleNamespace(), path=Path("a.yaml"), place=lambda *_: 1,
+            user_properties=[], promised=True,
+        )  # fmt: skip
+        with pytest.raises(module.RowError) as error:
+            module.ComparisonItem.runtest(item)
+        return str(error.value).splitlines()[0]
+
+    assert said() == line
+    if told.verdict == FAILS:
+        was = "{_size_text(row)}\\n{place}: {row.quantity}\\n"
+        path = otherwise(pytest_plugin, was, "{place}: {row.quantity}\\n")
+        assert said(path).startswith("a.yaml:1")
+
+
 def of_certificate(verdict: str, module: Any = pytest_plugin) -> str:
     """The test of a reference of which one of two checks has that verdict."""
     rows = [replace(CERTIFICATE, check="power"), replace(CERTIFICATE, verdict=verdict)]

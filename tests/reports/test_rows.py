@@ -7,16 +7,19 @@ from given.lines import refused, row
 from textmech.reports.data.row import FAILS, Certificate
 from textmech.reports.show.terminal import certificate_lines, rows
 
-LONG = "the model: 0.346 remains for h → 0; " + "one number for friction where there are two; " * 3
+LONG = (
+    "does not vanish with the step: 0.346 stay; "
+    + "one number for friction where there are two; " * 3
+)
 
 
 def test_a_setting_has_its_step_and_each_quantity_its_bound() -> None:
     found = [row(), row(quantity="rod.omega", error=0.2, ratio=20.0, because="the step")]
     assert list(rows(found)) == [
         "",
-        "swing in mujoco 4.0.0 shipped, h = 2 ms",
+        "swing in mujoco 4.0.0 shipped (defaults), h = 2 ms",
         "  rod.angle  1.00e-03 rad  of 1.0e-02   agrees",
-        "  rod.omega  2.00e-01 rad  of 1.0e-02   beyond",
+        "  rod.omega  2.00e-01 rad  of 1.0e-02   too far off",
         "      the step",
     ]
 
@@ -39,11 +42,11 @@ def test_what_agrees_needs_no_reason() -> None:
 
 def test_what_is_refused_is_named_together() -> None:
     names = [refused(quantity=name) for name in ("a.x", "b.x")]
-    assert list(rows([row(), *names]))[3:] == ["  a.x, b.x", "      refused: engine: no"]
+    assert list(rows([row(), *names]))[3:] == ["  a.x, b.x", "      not supported: engine: no"]
     assert list(rows([refused(because="why")]))[1:] == [
-        "swing in mujoco 4.0.0 shipped",
+        "swing in mujoco 4.0.0 shipped (defaults)",
         "  rod.angle",
-        "      refused: why",
+        "      not supported: why",
     ]
 
 
@@ -55,7 +58,7 @@ def test_nothing_is_wider_than_a_terminal() -> None:
     ]
     lines = list(rows(found))
     assert max(map(len, lines)) <= 80
-    assert "swing in mujoco 4.0.0 tuned (law), h = 2 ms" in lines
+    assert "swing in mujoco 4.0.0 tuned (best found, our force law), h = 2 ms" in lines
     assert LONG.split() == " ".join(lines[2:5]).split()
 
 

@@ -11,6 +11,8 @@ from given.otherwise import otherwise
 from given.report_folders import CERTIFICATE
 
 from textmech.cases.case import Case
+from textmech.reference.certificate.agreement import Check
+from textmech.reports.batch import suite
 from textmech.reports.batch.suite import Report
 from textmech.reports.compare.judge import metric
 from textmech.reports.compare.trial.trial import Trial
@@ -88,3 +90,51 @@ def test_poses_are_told_at_the_engines_own_samples(moving: Case) -> None:
         motion_files, "one.pair.sampled.times, one.outcome", "case.times, one.outcome"
     )
     assert times(moving, own, other) == pytest.approx(moving.times.tolist())
+
+
+@pytest.mark.mutant("a momentum that stays zero is known to all its digits")
+def test_a_sum_that_cancels_is_known_as_its_parts_are(trial: Callable[..., Trial]) -> None:
+    """The ball moves from the origin along x: r × m v is zero, of two numbers that are rounded.
+
+    A difference of 2.11e-12 there was 2.1e-12 on another processor.
+    """
+    floor = metric.floor(trial(), "momentum.angular", 1e-3)
+    ball: Any = trial().case.scene.bodies["ball"]
+    made = ball.mass * trial().case.duration * 1.0  # kg m²/s: m r v at the end
+    assert floor == pytest.approx(metric.MARGIN * metric.EPSILON * made * 1000)
+    summed = otherwise(metric, 'if quantity.part == "momentum":', "if False:")
+    assert summed.floor(trial(), "momentum.angular", 1e-3) == 0.0
+
+
+def check(difference: float, bound: float, *, measured: bool = True, module: Any = suite) -> Any:
+    """The difference and the bound of a check as its certificate has them."""
+    solution: Any = SimpleNamespace(system="generated", checks=[
+        Check("joints hold", difference, bound, measured=measured)])  # fmt: skip
+    case: Any = SimpleNamespace(name="swing", origin="")
+    (found,) = module._certificates(case, solution)
+    return found.difference, pytest.approx(found.bound)
+
+
+@pytest.mark.mutant("a bound that rounding makes is told to a power of ten")
+def test_a_bound_that_rounding_makes_is_told_to_a_power_of_a_thousand() -> None:
+    """But not where the check fails, nor of a bound that a law sets."""
+    for bound in (1e-12, 1e-11, 1e-10, 1e-9):
+        assert check(0.4e-12, bound) == (0.0, 1e-9)
+    assert check(0.0, 1e-8) == check(0.0, 1e-6) == (0.0, 1e-6)
+    assert check(1.2e-12, 1e-12) == (pytest.approx(1.2e-12), 1e-12)
+    assert check(1e-13, 1e-12, measured=False) == (0.0, 1e-12)
+    tens = otherwise(suite, "1000.0 ** ceil(log10(check.bound) / 3 - EDGE)", "check.bound")
+    assert check(0.0, 1e-8, module=tens) == (0.0, 1e-8)
+
+
+@pytest.mark.mutant("a share of a bound is told to a digit that is rounding's")
+def test_a_share_of_a_bound_is_a_power_of_ten() -> None:
+    """Of one processor it is 0.002, of another 0.004."""
+
+    def share(of: float, module: Any = write) -> float:
+        row = replace(CERTIFICATE, difference=of, certified=1e-9)
+        return module._as_known([row], [])[0].difference
+
+    assert [share(of) for of in (0.0, 0.001, 0.002, 0.004)] == pytest.approx([0, 1e-3, 1e-2, 1e-2])
+    digits = otherwise(write, "difference=_known(row.difference, 0.0)", "difference=row.difference")
+    assert share(0.002, digits) == 0.002

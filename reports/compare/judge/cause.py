@@ -6,14 +6,15 @@ from .convergence import FALLEN, Convergence
 STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model
 
 
-def cause(found: Convergence, finer: str = "", simplified: str = "") -> str:
+def cause(found: Convergence, finer: str = "", simplified: str = "", unit: str = "") -> str:
     """In a few words; finer: why a step below the judged one gave nothing.
 
     simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
+    unit: the quantity's.
     """
     step_alone = found.verdict in STEPS and not _beside(found) and not finer
     left_out = "" if step_alone else simplified
-    return "; ".join(part for part in (_told(found, finer), left_out) if part)
+    return "; ".join(part for part in (_told(found, finer, unit), left_out) if part)
 
 
 def _beside(found: Convergence) -> bool:
@@ -23,25 +24,25 @@ def _beside(found: Convergence) -> bool:
     return found.verdict == of.TEXTBOOK and found.usable_step is None and stays
 
 
-def _told(found: Convergence, finer: str) -> str:
+def _told(found: Convergence, finer: str, unit: str) -> str:
     if finer:
         return f"a smaller step diverges ({finer}): neither step nor model can be named"
     usable = found.usable_step
-    enough = f"within from h = {usable:.3g} s on" if usable else "not within on this ladder"
+    enough = f"within from h = {usable:.3g} s on" if usable else "not within at any step tried"
     order = "" if found.order is None else f" with order {found.order:.1f}"
-    limit = f"{found.limit or 0.0:.3g}"
+    limit = f"{found.limit or 0.0:.3g} {unit}".rstrip()
     sizes = found.errors.values()
     finest = f"no step down to h = {min(found.errors):.3g} s helps"
-    every = f"{finest}: {min(sizes):.3g} to {max(sizes):.3g} on every rung"
+    every = f"{finest}: {min(sizes):.3g} to {max(sizes):.3g} at every step tried"
     if _beside(found):
         return f"beside an event {every}; elsewhere the error falls{order}"
     return {
         of.EXACT: f"the step: {enough}" if usable else "rounding",
         of.TEXTBOOK: f"the step: it falls{order}, {enough}",
         of.WITHIN: f"the step: {enough}; the model's own {limit} would be",
-        of.ANOTHER: f"the model: {limit} remains for h → 0",
+        of.ANOTHER: f"does not vanish with the step: {limit} stay",
         of.FALLS: f"the step: its size falls{order or ', with no clear order'}, {enough}",
         of.STAYS: every,
-        of.UNSETTLED: "the ladder has not settled: neither step nor model can be named",
+        of.UNSETTLED: "no limit settles over the steps tried: neither step nor model can be named",
         of.INSTANTS: f"instants of events: {enough}",
     }[found.verdict]

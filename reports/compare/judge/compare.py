@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -173,7 +174,9 @@ def _judged(
     # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
     tuned = _study(trial, ladders[0], runs, name) if len(ladders) > 1 else held
     error = metric.error(samples, wanted)
-    why = cause(_telling(trial, name, runs, error.largest, held), runs.finer, trial.plan.simplified)
+    unit = trial.quantity(name).unit
+    told = partial(cause, finer=runs.finer, simplified=trial.plan.simplified, unit=unit)
+    why = told(_telling(trial, name, runs, error.largest, held))
     at = moment(worst.trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
@@ -184,7 +187,7 @@ def _judged(
             elsewhere = away_from_instants(trial)
             others = _study(trial, ladders[-1], runs, name, elsewhere)
             others = _telling(trial, name, runs, rest, others, elsewhere)
-            why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
+            why = f"{why}: {told(others)}"
     when = float(worst.trial.case.times[error.at])
     word = verdict(trial, name, error.largest, held, why, tuned)
     return judged(trial, name, word, error, when)

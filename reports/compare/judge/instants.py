@@ -101,7 +101,7 @@ def _each(trial: Trial, name: str, worst: Begun, runs: Runs) -> Comparison:
     error = metric.error(found[:both], worst.trial.wanted(name)[partners])
     climbs = list(_climbed(trial, name, runs))
     held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
-    why = cause(held, runs.finer, trial.plan.simplified)
+    why = cause(held, runs.finer, trial.plan.simplified, trial.quantity(name).unit)
     sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
     if error.at >= sure:
         why = f"number {error.at + 1}, of which the largest step cannot be sure; before it: {why}"

@@ -2,9 +2,11 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from ....cases.scene.frame import PLANE
 from ....cases.trajectory import Array
 from ..trial.trial import Trial
 
@@ -91,8 +93,13 @@ def floor(trial: Trial, name: str, step: float) -> float:
 
 
 def _size(trial: Trial, name: str) -> float:
-    """The size of what the quantity is made of: all places, if it is one; both kinds of energy."""
+    """The size of what the quantity is made of: all places, if it is one; both kinds of energy.
+
+    Of a momentum those of all bodies, though their sum may be none.
+    """
     quantity = trial.quantity(name)
+    if quantity.part == "momentum":
+        return _momentum(trial, angular=quantity.field.startswith("angular"))
     if quantity.part == "energy":
         parts = ("energy.kinetic", "energy.potential")
         return max(float(np.max(np.abs(trial.wanted(part)))) for part in parts)
@@ -100,6 +107,18 @@ def _size(trial: Trial, name: str) -> float:
     if quantity.unit == "rad" and known < MARGIN * EPSILON:
         return 1.0  # an angle that stays 0 is made of points, as its cosine is
     return known
+
+
+def _momentum(trial: Trial, *, angular: bool) -> float:
+    """The sum over the bodies of the largest m v, or m r v + J ω, along the reference's motion."""
+    frame, made = trial.case.scene.frame, 0.0
+    for name, s in trial.reference.states.items():
+        body: Any = trial.case.scene.bodies[name]
+        parts = (s[:, columns] for columns in (frame.place, frame.velocity, frame.spin))
+        r, v, omega = (float(np.max(np.linalg.norm(part, axis=1))) for part in parts)
+        moment = body.moment if frame is PLANE else float(np.max(np.abs(body.tensor)))
+        made += body.mass * r * v + moment * omega if angular else body.mass * v
+    return made
 
 
 def _largest(trial: Trial, unit: str) -> float:

@@ -9,7 +9,6 @@ from typing import Any, cast
 import numpy as np
 
 from ....cases.case import Case
-from ....cases.scene.frame import frame_of
 from ....cases.scene.observe import motion_of, observe
 from ....cases.scene.quantity import at_event, told_by
 from ....cases.trajectory import Array, Trajectory
@@ -24,7 +23,7 @@ from .ladder import wanted_reactions
 from .work import pace
 
 Samples = Mapping[str, Array]
-"""By quantity, (N,); of a run that is looked at also by body, the places and attitudes (N, …)."""
+"""By quantity, (N,); of a run that is looked at also by body, its states (N, 6) or (N, 13)."""
 Climbed = Samples | str
 """Of one rung, or why it has none."""
 
@@ -34,7 +33,7 @@ class Rung:
     """One run: the engine with a plan at a step [s]. It is pickled, and needs no reference.
 
     bounds: what is read, and how large it may become and still be a motion. poses: whether the
-    bodies' places and attitudes are kept beside it. fastest: how fast joints turn in the reference
+    bodies' states are kept beside it. fastest: how fast joints turn in the reference
     [rad/s], in space, where turns are counted. events: what is known of each from the reference.
     """
 
@@ -102,8 +101,8 @@ def _run(rung: Rung) -> Samples:
     for name, most in rung.bounds.items():
         if not np.all(np.abs(samples[name]) < most):
             raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
-    poses = sample_columns(trajectory) if rung.poses else {}
-    return {**samples, **poses, **_events(rung, trajectory)}
+    states = trajectory.states if rung.poses else {}
+    return {**samples, **states, **_events(rung, trajectory)}
 
 
 def _later(trajectory: Trajectory, late: float) -> Trajectory:
@@ -112,14 +111,6 @@ def _later(trajectory: Trajectory, late: float) -> Trajectory:
         return trajectory
     record = trajectory.record and _later(trajectory.record, late)
     return replace(trajectory, times=trajectory.times + late, record=record)
-
-
-def sample_columns(trajectory: Trajectory) -> Samples:
-    """By body, the columns (N, 3), in space (N, 7), that tell where it is and how it is turned."""
-    return {
-        body: states[:, : frame_of(states.shape[1]).attitude.stop]
-        for body, states in trajectory.states.items()
-    }
 
 
 def _answers(rung: Rung) -> Samples:

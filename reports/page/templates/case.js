@@ -3,13 +3,13 @@ const CALM = matchMedia('(prefers-reduced-motion: reduce)');
 
 // wanted: the ghosts that are shown at all; by default each, those of an engine by itself at once.
 function animation(name, motion, wanted = null) {
-  const pose = poser(motion.times, motion.poses, motion.axes), times = unpack(motion.times);
+  const pose = poser(motion), times = unpackPose(motion.times);
   const last = times[times.length - 1], [slow, long] = [3, 12];
   const rate = last / Math.min(Math.max(last, slow), long); // s of the motion in one second
   const root = svg('svg', {class: motion.axes === 3 ? 'mechanism space' : 'mechanism', viewBox: `0 0 ${CANVAS.width} ${CANVAS.height}`, role: 'img', 'aria-label': `${name} in motion`});
   const fixed = fittings(motion), own = bodies(motion, 'reference');
   const ghosts = Object.entries(motion.ghosts).filter(([key]) => !wanted || wanted.includes(key)).map(([key, ghost]) => ({
-    ...COLUMN.get(key), ...bodies(motion, `ghost ${COLUMN.get(key).look}`), pose: poser(ghost.times, ghost.poses, motion.axes),
+    ...COLUMN.get(key), ...bodies(motion, `ghost ${COLUMN.get(key).look}`), pose: poser(ghost), held: ghost.held,
   }));
   const trail = motion.trail ? motion.trail.map(unpack) : null, trace = svg('polyline', {class: 'trace'});
   root.append(fixed.group, trace, ...ghosts.map((g) => g.group), own.group);
@@ -62,9 +62,10 @@ function animation(name, motion, wanted = null) {
   if (wanted) return [root, controls];
   const covered = motion.covered.map((key) => COLUMN.get(key).title).join(', ');
   const pace = rate >= .995 && rate <= 1.005 ? '' : ` Shown at ${short(rate)} of its speed.`;
+  const held = ghosts.filter((ghost) => ghost.held).map((ghost) => ghost.title).join(', ');
   const behind = trail ? ' The line is the way of the place that is observed.' : '';
   return html('figure', {class: 'moving'}, root, controls, keys,
-    html('figcaption', {}, `The reference in ink.${behind}${pace}` + (covered ? ` Not to be told apart from it at this size: ${covered}.` : '')));
+    html('figcaption', {}, `The reference in ink.${behind}${pace}` + (covered ? ` Not to be told apart from it at this size: ${covered}.` : '') + (held ? ` Shown at their samples alone: ${held}.` : '')));
 }
 
 function swatch(look) {

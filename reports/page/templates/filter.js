@@ -89,7 +89,8 @@ function choose(form) {
   } else {
     const [step, times] = ['.step', '.times'].map((cell) => row.querySelector(cell).textContent);
     const snippet = row.querySelector('.snippet').cloneNode(true);
-    place.replaceChildren(html('p', {}, html('b', {}, row.dataset.recipe), ` at ${step} ${row.dataset.says}` + (times ? `, at ${times} the work as shipped: ` : ': '), more, '.'), snippet);
+    const none = row.dataset.most ? null : `No one setting of ${engine} does: each case about ${theme} needs its own. The one that most need, `;
+    place.replaceChildren(html('p', {}, none, html('b', {}, row.dataset.recipe), ` at ${step} ${row.dataset.says}` + (times ? `, at ${times} the work as shipped: ` : ': '), more, '.'), snippet);
     copies(snippet);
   }
   return addressed(form);

@@ -1,19 +1,18 @@
 // A mechanism that moves: the reference in ink, engines as ghosts. Nothing is simulated here.
-const CANVAS = {width: 460, height: 300, pad: 22};
+const CANVAS = {width: 460, height: 300, pad: 22}, LOOKS = 60;
 
-// Poses of one motion by part, at any time: straight lines between its samples.
-function poser(times, poses, axes) {
-  const t = unpack(times);
-  const parts = Object.entries(poses).map(([name, columns]) => [name, columns.map(unpack)]);
+// Poses of one motion by part, at any time: cubics through its samples with their rates. What is
+// held stays at a sample until the next, for nobody knows the way between them.
+function poser({times, poses, held = false}) {
+  const t = unpackPose(times);
+  const parts = Object.entries(poses).map(([name, [pose, rates]]) => [name, pose.map(unpackPose), rates.map(unpack)]);
   return (time) => {
-    let k = 1;
-    while (k < t.length - 1 && t[k] < time) k++;
-    const share = Math.min(Math.max((time - t[k - 1]) / (t[k] - t[k - 1]), 0), 1);
-    return new Map(parts.map(([name, columns]) => {
-      const [a, b] = [columns.map((c) => c[k - 1]), columns.map((c) => c[k])];
-      const same = axes === 2 || a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6] >= 0;
-      return [name, a.map((v, i) => v + share * ((i > 2 && !same ? -b[i] : b[i]) - v))];
-    }));
+    let [low, high] = [1, t.length - 1]; // the first sample that is not before it
+    while (low < high) { const middle = (low + high) >> 1; if (t[middle] < time) low = middle + 1; else high = middle; }
+    const k = low, h = t[k] - t[k - 1], s = h > 0 ? Math.min(Math.max((time - t[k - 1]) / h, 0), 1) : 1, r = 1 - s;
+    if (held) return new Map(parts.map(([name, pose]) => [name, pose.map((c) => c[s < 1 ? k - 1 : k])]));
+    const [a, b, u, v] = [(1 + 2 * s) * r * r, s * s * (3 - 2 * s), h * s * r * r, -h * s * s * r];
+    return new Map(parts.map(([name, pose, rates]) => [name, pose.map((c, i) => a * c[k - 1] + b * c[k] + u * rates[i][k - 1] + v * rates[i][k])]));
   };
 }
 
@@ -38,10 +37,10 @@ function camera(motion, turn) {
   return ([x, y, z]) => [-sa * x + ca * y, -(z * ce - (ca * x + sa * y) * se)];
 }
 
-// The window: all that the reference draws at any of its frames.
+// The window: all that the reference draws at any of its poses, and at as many times between them.
 function frame(motion, look, pose, times) {
-  const seen = [];
-  for (const time of times) {
+  const seen = [], last = times[times.length - 1];
+  for (const time of [...times, ...Array.from({length: LOOKS}, (_, k) => last * k / LOOKS)]) {
     const now = pose(time);
     for (const [name, body] of Object.entries(motion.sketch.bodies)) {
       seen.push(look(now.get(name)), ...body.lines.flat().map((p) => look(placed(now.get(name), p))));
@@ -60,7 +59,7 @@ function frame(motion, look, pose, times) {
   };
 }
 
-const at = ([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`;
+const at = ([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`;
 const path = (points) => points.map(at).join(' ');
 
 function zigzag([x0, y0], [x1, y1]) {

@@ -23,17 +23,18 @@ function columnOf(key, own) {
   const place = own.indexOf(`${engine}.${setting}`) % 3;
   const whose = ['mujoco', 'pymunk', 'book'].includes(engine) ? engine : 'other';
   return {key, engine, setting, realised, look: mine(engine, setting) ? `mine${place} mine ${way}` : `${whose} ${setting} ${way}`,
-    title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised === 'any way' ? 'law or driver' : realised}`)};
+    title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised === 'any way' ? 'our force law or loop' : spoken(realised)}`)};
 }
 
-function levels(letters) {
-  const found = new Float64Array(letters.length / 2);
-  for (let k = 0; k < found.length; k++) found[k] = 64 * LEVEL.get(letters[2 * k]) + LEVEL.get(letters[2 * k + 1]);
+function levels(letters, width) {
+  const found = new Float64Array(letters.length / width);
+  for (let k = 0; k < letters.length; k++) { const at = Math.floor(k / width); found[at] = 64 * found[at] + LEVEL.get(letters[k]); }
   return found;
 }
-const unpack = ([low, step, letters]) => levels(letters).map((k) => low + step * k);
+const unpacking = (width) => ([low, step, letters]) => levels(letters, width).map((k) => low + step * k);
+const [unpack, unpackPose] = [unpacking(2), unpacking(3)]; // letters of a number
 // Errors: each to half a percent of itself, the upper half of the levels below zero.
-const unpackBySize = ([largest, step, letters]) => levels(letters).map((k) =>
+const unpackBySize = ([largest, step, letters]) => levels(letters, 2).map((k) =>
   (k % 2048 === 0 ? 0 : (k < 2048 ? 1 : -1) * largest * 10 ** (-(k % 2048 - 1) * step)));
 
 function made(element, attributes, children) {
@@ -66,5 +67,6 @@ function few(number) {
 }
 const milliseconds = (step) => (step === null || step === '' ? '' : few(1e3 * step));
 const word = (k) => ROWS.words[k];
+const spoken = (text) => ROWS.spoken[text] ?? text; // a table's word as it is said
 const addressOf = (id) => `#${encodeURIComponent(id)}`; // a file may have any name
 const plain = (number) => (number === null ? '' : String(number));

@@ -16,7 +16,7 @@ const folded = (title, content) => {
 function orders(ladders) {
   const told = [...ladders].sort((a, b) => a[0] - b[0]).map(([column, , ladder, , , order, limit, usable, verdict]) =>
     [COLUMNS[column].title, word(ladder), short(order), short(limit), usable === null ? '–' : `h ≤ ${milliseconds(usable)}`, word(verdict)]);
-  return told.length ? table('Order of the error in the step, and what is left of it', ['setting', 'ladder', 'order', 'left for h → 0', 'usable step [ms]', 'says'], told) : null;
+  return told.length ? table('Order of the error in the step, and what is left of it', ['setting', 'numbers', 'order', 'stays, however small the step', 'usable step [ms]', 'says'], told) : null;
 }
 
 function quantityFigures(motion, data, quantity) {
@@ -66,13 +66,13 @@ function numbers(data) {
   for (const [column, quantity, unit, step, allowed, largest, when, ratio, verdict, because] of data.rows) {
     const says = word(verdict);
     if (says === 'refused') {
-      const key = `${COLUMNS[column].title}: ${[says, word(because)].filter(Boolean).join(': ')}`;
+      const key = `${COLUMNS[column].title}: ${[spoken(says), word(because)].filter(Boolean).join(': ')}`;
       refused.set(key, [...(refused.get(key) || []), word(quantity)]);
-    } else told.push([COLUMNS[column].title, word(quantity), milliseconds(step), `${few(allowed)} ${word(unit)}`, few(largest), few(when), ratio === null ? '' : short(ratio),
-      html('span', {class: `chip ${verdictLook(says, ratio)}`}, says), word(because)]);
+    } else told.push([COLUMNS[column].title, spoken(word(quantity)), milliseconds(step), `${few(allowed)} ${word(unit)}`, few(largest), few(when), ratio === null ? '' : short(ratio),
+      html('span', {class: `chip ${verdictLook(says, ratio)}`}, spoken(says)), word(because)]);
   }
   return html('div', {}, told.length ? table('Every observed quantity', ['setting', 'quantity', 'step [ms]', 'allowed', 'largest error', 'at [s]', '× allowed', 'verdict', 'because'], told) : null,
-    ...[...refused].map(([why, names]) => html('p', {class: 'note'}, `${why} (${names.join(', ')})`)));
+    ...[...refused].map(([why, names]) => html('p', {class: 'note'}, `${why} (${names.map(spoken).join(', ')})`)));
 }
 
 const causes = (data) => table('The smallest changes that bring a row within', ['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [ms]', 'error then', 'cost, × its own', 'law'],
@@ -93,7 +93,7 @@ function build(section) {
     choice.value = quantity;
     figures.replaceChildren(...[...figures.children].slice(0, fixed), ...parts);
     above.replaceChildren(...[keys].filter(Boolean));
-    below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'It has no ladder of steps.'));
+    below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'Other step sizes were not tried.'));
   };
   choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `${addressOf(name)}/${encodeURIComponent(choice.value)}`); });
   section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from given.otherwise import otherwise
 
+from textmech.reports.page import advice as advised
 from textmech.reports.page import beside
 from textmech.reports.page.advice import advice
 from textmech.reports.page.beside import causes, versions
@@ -27,7 +28,22 @@ d    mujoco -         2      -        none   -        -      -    500          1
 e    mujoco -         2      -        none   -        -      -    -            -
 a    mujoco 1e-3      2      both     RK4    o4       0.008  500  500          0.1
 """)  # what is refused, as e, was never off by anything, and needs no setting
+SELDOM = rows("""
+case engine tolerance margin want recipe settings step cost shipped_cost ratio
+a    mujoco -         2      both RK4    o1       0.01 500  500          0.1
+b    mujoco -         2      both bundle o2       0.01 500  500          0.1
+c    mujoco -         2      both midway o3       0.01 500  500          0.1
+""")
 ABOUT = dict.fromkeys("abce", ("pins",)) | {"d": ("pins", "space")}
+
+
+@pytest.mark.mutant("a setting that keeps a third of a theme's cases is what the theme needs")
+def test_where_less_than_half_need_a_setting_there_is_no_one() -> None:
+    def most(module: Any = advised) -> bool:
+        return module.advice(SELDOM, ABOUT)["themes"][0]["most"]
+
+    assert not most()
+    assert most(otherwise(advised, "2 * len(usual) >=", "3 * len(usual) >="))
 
 
 def test_a_theme_needs_what_most_of_its_cases_need_at_the_smallest_of_their_steps() -> None:
@@ -39,6 +55,7 @@ def test_a_theme_needs_what_most_of_its_cases_need_at_the_smallest_of_their_step
     assert (pins["step"], pins["hardest"], pins["settings"]) == ("1 ms", "b", "o2")
     assert pins["times"] == "×8"
     assert pins["others"] == [("bundle", 1)]
+    assert pins["most"]
     assert (fine["tolerance"], fine["cases"]) == ("1e-3", 1)
     assert (space["recipe"], space["cured"], space["cases"]) == ("", 0, 1)
 

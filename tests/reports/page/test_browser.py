@@ -4,6 +4,7 @@ import json
 import re
 from base64 import b64decode
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -14,6 +15,7 @@ from given.browser import Tab, browser, found
 
 from textmech.cases.scene.rotation import turned
 from textmech.reports.page.pack import packed_by_size
+from textmech.reports.page.page import page as drawn_page
 
 WIDTHS = (390, 900, 1440)
 SHEET = 794  # px: the width of A4
@@ -64,6 +66,30 @@ def test_an_error_and_a_request_would_be_seen(tab: Tab, tmp_path: Path) -> None:
     tab.open(bad.as_uri())
     assert any("nowhere" in said for said in tab.errors)
     assert any("other.png" in url for url in tab.requests)
+
+
+def test_the_first_picture_can_be_read_on_a_telephone(tab: Tab, page: str) -> None:
+    """Its letters, and those of its legend, are 9 pixels high at least."""
+    look(tab, page, width=390)
+    assert tab.ask("document.querySelectorAll('#first .keys li').length") == 5
+    sizes = """(() => { const size = (one) => parseFloat(getComputedStyle(one).fontSize);
+        const scale = ({a, b}) => Math.hypot(a, b), all = (s) => [...document.querySelectorAll(s)];
+        return [...all('#first .keys span').map(size),
+            ...all('#first .picture text').map((t) => size(t) * scale(t.getScreenCTM()))]; })()"""
+    assert min(tab.ask(sizes)) >= 9
+
+
+def test_the_page_of_one_case_has_no_shares(tab: Tab, made: SimpleNamespace) -> None:
+    """Its motion stands in place of the picture, and is seen at once."""
+    (case,) = (case for case in made.cases if case.name == "swing")
+    rows = [row for row in made.folder.comparisons if row.case == "swing"]
+    alone = replace(made.folder, comparisons=rows)
+    file = made.place / "alone.html"
+    file.write_text(drawn_page(alone, [case], {"swing": made.motions["swing"]}), encoding="utf-8")
+    look(tab, file.as_uri())
+    assert "all quantities of swing" in tab.ask("document.getElementById('result').textContent")
+    assert tab.ask("document.querySelectorAll('#first .picture').length") == 0
+    assert tab.ask("document.querySelectorAll('#in-motion svg.mechanism').length") == 1
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -124,10 +150,13 @@ def test_the_drawn_bar_is_where_the_reference_is(
     """The script's places, against the trajectory itself: hinge at O, the bar at its angle."""
     look(tab, f"{page}#swing", prefers_reduced_motion="reduce")
     tab.until("document.querySelector('#swing .play')")
+    (case,) = (case for case in made.cases if case.name == "swing")
+    times = case.times.tolist()
     told = tab.ask(
-        """(() => { const m = MOTIONS.swing, pose = poser(m.times, m.poses, m.axes);
-        const bar = m.sketch.bodies.rod.lines[0], t = unpack(m.times);
-        return Array.from(t, (at) => bar.map((p) => placed(pose(at).get('rod'), p))); })()"""
+        """((t) => { const m = MOTIONS.swing, pose = poser(m);
+        const bar = m.sketch.bodies.rod.lines[0];
+        return Array.from(t, (at) => bar.map((p) => placed(pose(at).get('rod'), p))); })"""
+        f"({times})"
     )
     states = made.report.solutions["swing"].trajectory.states["rod"]
     for ((x0, y0), (x1, y1)), state in zip(told, states, strict=True):

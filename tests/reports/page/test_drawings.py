@@ -12,8 +12,7 @@ from given.scenes import SHIPPED
 from textmech.cases.case import Case
 from textmech.cases.load import load
 from textmech.cases.trajectory import Array
-from textmech.reports.page import motions, picture, sketch
-from textmech.reports.page.pack import unpacked
+from textmech.reports.page import motions, picture, poses, sketch
 
 TEXT = """\
 title: A block and a particle, free of each other, with a spring between their edges
@@ -102,39 +101,39 @@ def test_a_body_of_space_is_a_box_as_hard_to_turn() -> None:
 
 
 def moved(case: Case) -> dict[str, Array]:
-    """Two poses (N, 3) that are nothing alike."""
-    t = case.times
+    """The states (N, 6) of two bodies that move in ways that are nothing alike."""
+    t, of = case.times, np.ones_like(case.times)
     return {
-        "box": np.stack([t, 0.2 * t, 2.0 * t], axis=1),
-        "crate": np.stack([1.0 - 0.5 * t, t * t, -t], axis=1),
+        "box": np.stack([t, 0.2 * t, 2.0 * t, of, 0.2 * of, 2.0 * of], axis=1),
+        "crate": np.stack([1.0 - 0.5 * t, t * t, -t, -0.5 * of, 2 * t, -of], axis=1),
     }
 
 
-def columns(case: Case, module: Any = motions) -> dict[str, Array]:
-    frames = module.thinned(case.samples, motions.FRAMES)
-    found = module._columns(moved(case), frames)
-    return {body: np.stack([unpacked(c) for c in rows], axis=1) for body, rows in found.items()}
+def drawn(case: Case, module: Any = poses) -> dict[str, Array]:
+    """By body its poses at the samples, of those that are kept and packed."""
+    found = module.drawn(case, case.times, module.moves(moved(case)), module.CLOSE)
+    assert len(found.times) == 2  # cubics hold all of it
+    return module.read(found.packed()).at(case.times)
 
 
 @pytest.mark.mutant("every body moves as the first one")
 def test_each_body_moves_by_itself(case: Case) -> None:
     for body, rows in moved(case).items():
-        assert columns(case)[body] == pytest.approx(rows, abs=1e-3)
-    first = otherwise(
-        motions, "np.ascontiguousarray(rows[frames].T)",
-        "np.ascontiguousarray(next(iter(poses.values()))[frames].T)",
-    )  # fmt: skip
-    assert columns(case, first)["crate"] != pytest.approx(moved(case)["crate"], abs=1e-3)
+        assert drawn(case)[body] == pytest.approx(rows[:, :3], abs=1e-3)
+    was = "part: [_columns(pose, POSE), _columns(rates, CURVE)]"
+    first = "[*self.moves.values()][0]"
+    alike = otherwise(poses, was, f"part: [_columns({first}[0], POSE), _columns(rates, CURVE)]")
+    assert drawn(case, alike)["crate"] != pytest.approx(moved(case)["crate"][:, :3], abs=1e-3)
 
 
 def covers(case: Case, off: Callable[[Array], Array], module: Any = motions) -> bool:
     """Whether a crate that is otherwise by so much looks as the reference's."""
-    poses = moved(case)
-    return module._covered({"crate": off(poses["crate"].copy())}, poses, case, 1.0)
+    states = moved(case)
+    return module._covered({"crate": off(states["crate"].copy())}, states, case, 1.0)
 
 
 def turned(by: float) -> Callable[[Array], Array]:
-    return lambda rows: rows + np.array([0.0, 0.0, by])
+    return lambda rows: rows + np.array([0.0, 0.0, by, 0.0, 0.0, 0.0])
 
 
 @pytest.mark.mutant("a body that only turns otherwise is covered")
@@ -142,7 +141,7 @@ def test_what_only_turns_otherwise_is_seen(case: Case) -> None:
     assert covers(case, turned(0.0))
     assert covers(case, turned(0.9 * motions.SEEN))
     assert not covers(case, turned(1.1 * motions.SEEN))
-    assert not covers(case, lambda rows: rows + np.array([1.1 * motions.SEEN, 0.0, 0.0]))
+    assert not covers(case, lambda rows: rows + np.array([1.1 * motions.SEEN, *[0.0] * 5]))
     blind = otherwise(motions, " or np.max(turns) > SEEN", "")
     assert covers(case, turned(1.0), blind)
 

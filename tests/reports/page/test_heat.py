@@ -26,7 +26,7 @@ def test_the_worst_error_is_told_with_its_quantity() -> None:
     found = cell({"ratio": 0.5}, {"ratio": 470.0, "verdict": BEYOND}, {"ratio": 3.0})
     assert (found.kind, found.text, found.worst, found.shade) == ("beyond", "470", "x1", 6)
     assert (found.beyond, found.judged, found.within) == (2, 3, 1)
-    assert found.words == "2 of 3 beyond; worst x1 at 470 of what is allowed"
+    assert found.words == "2 of 3 too far off; worst x1 at 470 of what is allowed"
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_the_gravest_verdict_counts(verdicts: list[str], kind: str) -> None:
 
 
 def test_what_is_refused_as_a_whole_says_why_and_has_no_size() -> None:
-    why = "refused: engine: it cannot"
+    why = "not supported: engine: it cannot"
     found = cell({"verdict": "refused", "because": "engine: it cannot", "ratio": None})
     assert (found.kind, found.words, found.shade, found.judged) == ("refused", why, 0, 0)
 
@@ -86,7 +86,8 @@ def test_columns_go_from_shipped_to_own_to_tuned_and_the_book_is_last() -> None:
              ("mujoco", "tuned", "native"), ("mujoco", "shipped", "native")]  # fmt: skip
     rows = [replace(ROW, engine=e, setting=s, realised=r) for e, s, r in names]
     assert [one.title for one in columns(rows)] == [
-        "mujoco shipped", "mujoco mine", "mujoco tuned", "pymunk tuned + law", "book smooth",
+        "mujoco shipped", "mujoco mine", "mujoco tuned", "pymunk tuned + our force law",
+        "book smooth",
     ]  # fmt: skip
     assert column(rows[0]) == Column("pymunk", "tuned", "law")
 

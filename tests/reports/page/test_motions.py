@@ -13,20 +13,21 @@ from textmech.cases.case import Case
 from textmech.cases.scene.motion import Motion as Looked
 from textmech.cases.scene.observe import observe
 from textmech.reports.batch.selection import choose_cases
-from textmech.reports.page import motions
-from textmech.reports.page.motions import FRAMES, POINTS, motion, thinned
+from textmech.reports.page import poses
+from textmech.reports.page.motions import POINTS, motion, thinned
 from textmech.reports.page.pack import unpacked, unpacked_by_size
-from textmech.reports.page.picture import _frames, _placed
+from textmech.reports.page.picture import _placed
+from textmech.reports.page.poses import read
 from textmech.reports.page.sketch import sketch
 
 LEVEL = 1 / 4096  # of a range: half of it is rounded
 
 
 def test_samples_are_thinned_evenly_with_both_ends() -> None:
-    kept = thinned(251, FRAMES)
-    assert (kept[0], kept[-1], len(kept)) == (0, 250, FRAMES)
+    kept = thinned(251, 61)
+    assert (kept[0], kept[-1], len(kept)) == (0, 250, 61)
     assert set(np.diff(kept)) <= {4, 5}
-    assert thinned(26, FRAMES).tolist() == list(range(26))
+    assert thinned(26, 61).tolist() == list(range(26))
 
 
 @pytest.mark.slow
@@ -64,17 +65,16 @@ def test_drawn_bodies_hang_together_as_their_joints_hold_them(name: str) -> None
     """The point of a joint on its second body, as drawn, is where its first body has it."""
     (case,), trajectory = choose_cases([name]), scenes.solved(name).trajectory
     drawn = motion(case, trajectory, [])
-    frames = _frames(drawn["poses"])
+    frames = read(drawn).at(case.times)
     looked = Looked(case.scene.bodies, case.scene.points, trajectory)
-    kept = thinned(case.samples, FRAMES)
     for joint, told in zip(case.scene.joints.values(), drawn["sketch"]["joints"], strict=True):
         part, place = told["at"]  # on the second part
         if "rail" in told:
             continue
-        meant = looked.point(joint.a)[kept, : drawn["axes"]]
+        meant = looked.point(joint.a)[:, : drawn["axes"]]
         for k, right in enumerate(meant):
             found = _placed(frames[part][k], np.array([place]))[0] if part else np.array(place)
-            assert found == pytest.approx(right, abs=2e-3 * drawn["size"])
+            assert found == pytest.approx(right, abs=1e-3 * drawn["size"])  # half a pixel
 
 
 @pytest.mark.slow
@@ -98,14 +98,14 @@ def test_a_trail_goes_round_between_its_samples() -> None:
     places = np.stack([np.cos(times), np.sin(times)], axis=1)
     velocities = np.stack([-np.sin(times), np.cos(times)], axis=1)
 
-    def off(module: Any = motions) -> float:
-        way = module.between(times, places, velocities, 100)
+    def off(module: Any = poses) -> float:
+        way = module.cubic(times, places, velocities, np.linspace(times[0], times[-1], 100))
         assert way[[0, -1]] == pytest.approx(places[[0, -1]])
         return float(np.max(np.abs(np.hypot(*way.T) - 1)))
 
     assert off() < 0.01
-    was = "    return ends + h * (velocities"
-    straight = otherwise(motions, was, "    return ends + 0 * h * (velocities")
+    was = "    return ends + h * (rates"
+    straight = otherwise(poses, was, "    return ends + 0 * h * (rates")
     assert off(straight) > 0.05
 
 

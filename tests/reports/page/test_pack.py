@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from textmech.reports.page.pack import (
-    LEVELS,
+    BASE,
     Packed,
     packed,
     packed_by_size,
@@ -15,12 +15,14 @@ from textmech.reports.page.pack import (
 )
 
 
+@pytest.mark.parametrize("width", [2, 3])
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])
-def test_a_curve_comes_back_to_half_a_level(scale: float) -> None:
+def test_a_curve_comes_back_to_half_a_level(scale: float, width: int) -> None:
     curve = scale * np.random.default_rng(1).normal(size=77)
-    found = packed(curve)
-    assert np.max(np.abs(unpacked(found) - curve)) <= 0.501 * found[1] + 1e-5 * scale
-    assert found[1] == pytest.approx(np.ptp(curve) / (LEVELS - 1), rel=1e-5)
+    found = packed(curve, width)
+    assert np.max(np.abs(unpacked(found, width) - curve)) <= 0.501 * found[1] + 1e-5 * scale
+    assert found[1] == pytest.approx(np.ptp(curve) / (BASE**width - 1), rel=1e-5)
+    assert len(found[2]) == 77 * width
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e9])

@@ -11,7 +11,7 @@ from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEP
 from textmech.reports.data.row import FAILS
 from textmech.reports.page import overview, rows
 from textmech.reports.page import page as trust
-from textmech.reports.page.column import column
+from textmech.reports.page.column import Column, column
 from textmech.reports.page.folder import Folder
 from textmech.reports.page.heat import Cell
 
@@ -125,6 +125,31 @@ def test_the_result_is_one_sentence() -> None:
     )
     lax = otherwise(overview, "sum(ratio <= 1 for", "sum(ratio <= 2 for")
     assert "2 of 2 tuned" in told(lax)
+
+
+@pytest.mark.mutant("what misses its tolerance is told to keep it, of one case")
+def test_the_result_of_one_case_speaks_of_it() -> None:
+    """Not of shares of one; by how much each setting misses, and what an engine cannot do."""
+    kept = Cell("agrees", "0.5", "a", 0.5, judged=2)
+    off = Cell("beyond", "7.9", "pin.force", 7.9, beyond=1, judged=2)
+    cells = {
+        ("swing", Column("mujoco", "shipped", "native")): off,
+        ("swing", Column("mujoco", "tuned", "law")): kept,
+        ("swing", Column("pymunk", "shipped", "native")): off,
+        ("swing", Column("toy", "shipped", "native")): Cell("refused", "–"),
+        ("swing", Column("book", "smooth", "native")): kept,
+    }
+
+    def told(module: Any = overview) -> str:
+        return module.result_of_one(cells)
+
+    assert told() == (
+        "mujoco keeps all quantities of swing within their tolerances tuned with our force law, "
+        "but not as shipped (pin.force ×7.9); pymunk does not keep them as shipped "
+        "(pin.force ×7.9); toy does not support this scene."
+    )
+    lax = otherwise(overview, "if cell.within == cell.judged]", "if cell.judged]")
+    assert "keeps them as shipped" in told(lax)
 
 
 def kind(module: Any = trust) -> tuple[str, str]:

@@ -9,8 +9,7 @@ from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
-from textmech.reports.page import motions, sketch
-from textmech.reports.page.pack import unpacked
+from textmech.reports.page import poses, sketch
 
 TEXT = """\
 title: A bar on a slide that another body carries, under a hook that moves
@@ -97,10 +96,9 @@ def test_a_drawing_is_as_large_as_the_motion_or_a_body(case: Case) -> None:
 
 @pytest.mark.mutant("a driven point of the ground stands still")
 def test_a_driven_point_is_drawn_where_it_is(case: Case) -> None:
-    frames = motions.thinned(case.samples, motions.FRAMES)
-    ((name, (x, y)),) = motions._driven(case, frames).items()
+    ((name, (places, rates)),) = poses.driven(case, case.times).items()
     assert name == "ground.hook"
-    assert unpacked(x) == pytest.approx(case.times, abs=1e-3)
-    assert unpacked(y) == pytest.approx(1.0 + 0 * case.times)
-    still = otherwise(motions, "point.states(case", "point.states(0 * case")
-    assert unpacked(still._driven(case, frames)[name][0]) == pytest.approx(0.0 * case.times)
+    assert pytest.approx(np.array([case.times, 1.0 + 0 * case.times])) == places.T
+    assert rates[1:-1].tolist() == [[1.0, 0.0]] * 9
+    still = otherwise(poses, "(point.states(times)[:, :n]", "(point.states(0 * times)[:, :n]")
+    assert still.driven(case, case.times)[name][0][:, 0] == pytest.approx(0.0 * case.times)

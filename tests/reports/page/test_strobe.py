@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from textmech.cases.trajectory import Array
 from textmech.reports.page import picture
 from textmech.reports.page.column import Column
-from textmech.reports.page.pack import packed
+from textmech.reports.page.poses import Poses
 
 T = np.linspace(0.0, 1.0, 7)
 UP = np.stack([0 * T, 2 * T, 0 * T], axis=1)  # x, y, angle: it rises by 2 m
@@ -20,16 +20,17 @@ RIGHT = np.stack([3 * T, 0 * T, 0 * T], axis=1)
 TUNED = Column("mujoco", "tuned", "native")
 
 
-def columns(rows: Array) -> list[Any]:
-    return [packed(column) for column in np.ascontiguousarray(rows.T)]
+def moved(**parts: Array) -> dict[str, Any]:
+    """What is drawn of parts that go evenly from the first of their rows to the last."""
+    moves = {name: (rows, np.gradient(rows, T, axis=0)) for name, rows in parts.items()}
+    return Poses(T, moves).packed()
 
 
 MOTION: dict[str, Any] = {
     "axes": 2,
-    "times": packed(T),
     "trail": None,
-    "poses": {"dot": columns(UP), "ground.hook": columns(RIGHT[:, :2])},
-    "ghosts": {"mujoco.tuned.native": {"poses": {"dot": columns(RIGHT)}}},
+    **moved(**{"dot": UP, "ground.hook": RIGHT[:, :2]}),
+    "ghosts": {"mujoco.tuned.native": moved(dot=RIGHT)},
     "sketch": {
         "bodies": {"dot": {"lines": [], "dot": True}},
         "links": [{"kind": "spring", "ends": [["dot", [0.5, 0.0]], ["ground.hook", [0.0, 0.0]]]}],
@@ -51,7 +52,7 @@ def drawn(module: Any = picture) -> list[tuple[str, list[list[float]]]]:
 @pytest.mark.mutant("engines are drawn where they begin")
 def test_an_engine_is_drawn_where_it_ends() -> None:
     assert ("mujoco tuned", [[3.0, 0.0]]) in drawn()
-    began = otherwise(picture, "{part: rows[-1] for part", "{part: rows[0] for part")
+    began = otherwise(picture, "{part: pose[-1] for part", "{part: pose[0] for part")
     assert ("mujoco tuned", [[0.0, 0.0]]) in drawn(began)
 
 
@@ -64,7 +65,7 @@ def test_the_reference_is_drawn_at_its_instants_and_its_links_at_the_last() -> N
 
 @pytest.mark.mutant("the scale is that of an engine that fell away")
 def test_the_scale_is_the_mechanisms() -> None:
-    fell = {"mujoco.tuned.native": {"poses": {"dot": columns(-50 * UP)}}}
+    fell = {"mujoco.tuned.native": moved(dot=-50 * UP)}
 
     def lowest(module: Any = picture) -> float:
         axes = Figure().subplots()
@@ -76,22 +77,11 @@ def test_the_scale_is_the_mechanisms() -> None:
     assert lowest(otherwise(picture, "axes.dataLim.set(limits)", "pass")) < -90.0
 
 
-@pytest.mark.mutant("ink by 0.8 k / last, of which rounding may make more than all")
-@pytest.mark.parametrize("count", range(3, 62))
-def test_the_last_instant_is_in_full_ink_however_many_there_are(count: int) -> None:
-    rows = columns(np.linspace(0.0, 1.0, count)[:, None] * np.ones(3))
-    motion = {**MOTION, "times": rows[0], "poses": {"dot": rows}, "ghosts": {}}
-    motion["sketch"] = {**MOTION["sketch"], "links": []}
-
-    def last(module: Any = picture) -> float | None:
-        axes = Figure().subplots()
-        module.strobe(axes, motion, [])
-        return axes.get_lines()[-1].get_alpha()
-
-    assert last() == 1.0
-    if 0.2 + 0.8 * (count - 1) / (count - 1) > 1.0:
-        with pytest.raises(ValueError, match="outside 0-1 range"):
-            last(otherwise(picture, "0.8 * (k / last)", "0.8 * k / last"))
+def test_the_last_instant_is_in_full_ink() -> None:
+    axes = Figure().subplots()
+    still = {**MOTION["sketch"], "links": []}
+    picture.strobe(axes, {**MOTION, "ghosts": {}, "sketch": still}, [])
+    assert [line.get_alpha() for line in axes.get_lines()][-1] == 1.0
 
 
 @pytest.mark.mutant("space seen from below")
