@@ -21,6 +21,7 @@ from ..cases.mistake import CaseError, Mistake, Source
 from ..cases.scene.difference import apart
 from ..cases.scene.observe import observe
 from ..cases.scene.states import MASS_MATRIX
+from ..cases.scene.unnamed import through
 from ..cases.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -42,13 +43,15 @@ class Reference:
     motion: by time [s] each quantity that the case bounds, and where its bodies are; of an attitude
     the angle [rad] from where it began. units: of its columns. events: the name, the number from 1
     and the time [s] of each. checks: what the reference was held against, the difference, the bound
-    that it keeps, and of a bounded quantity what it is certified to.
+    that it keeps, and of a bounded quantity what it is certified to. warnings: sentences on what
+    the motion shows that is no mistake, and most likely not meant.
     """
 
     motion: "pd.DataFrame"
     units: Mapping[str, str]
     events: "pd.DataFrame"
     checks: "pd.DataFrame"
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,7 @@ def solve(word: Word) -> Reference:
         units=units,
         events=pd.DataFrame(times, columns=["event", "k", "time"]),
         checks=pd.DataFrame([vars(check) | {"holds": check.holds} for check in solution.checks]),
+        warnings=() if case.states else (*through(case.scene, solution.trajectory),),
     )
 
 
