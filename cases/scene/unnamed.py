@@ -52,7 +52,7 @@ def _outline(body: Body) -> Mapping[str, Vector]:
 
 
 def _stood_on(scene: Scene, body: Body, motion: Motion) -> dict[tuple[str, Depths], set[str]]:
-    """What contacts of the body are with, in words and as depths, and the points they name."""
+    """The planes and sides that contacts of the body are with, and the points that these name."""
     by_name: dict[str, Depths] = {}
     found: dict[tuple[str, Depths], set[str]] = {}
     for contact in scene.contacts.values():

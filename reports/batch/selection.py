@@ -126,7 +126,7 @@ MODELS = {"mujoco": "an MJCF model", "robot": "a URDF model", "sdf": "an SDF mod
 
 
 def _model(file: Path) -> str:
-    """What to say of a file that is XML; empty of any other."""
+    """The words for a file that is XML; an empty text for any other."""
     try:
         root = next(iterparse(file, events=("start",)))[1].tag.rpartition("}")[2]
     except (ParseError, StopIteration, OSError, ValueError, LookupError):  # as of its encoding

@@ -27,7 +27,7 @@ def rate(scene: Scene) -> float:
 
 
 def numbers(scene: Scene, damping: float) -> dict[str, float]:
-    """What the space holds of each coefficient, by quantity; damping: its number."""
+    """The coefficients that the space's `damping` holds, by quantity."""
     found: dict[str, float] = {}
     for force in slowing(scene):
         names = ("coefficient",) if isinstance(force, Drag) else ("forward", "backward")

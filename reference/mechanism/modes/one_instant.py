@@ -81,7 +81,7 @@ class _Problem:
         return self.meetings[k].normal.rate(v)
 
     def groups(self, struck: Sequence[int], v: Array) -> list[tuple[int, ...]]:
-        """Those that strike, in groups that symmetries exchange, if what rests stays at rest."""
+        """The contacts that strike, in groups that symmetries exchange, if what rests stays so."""
         groups = {k: {k} for k in struck}
         for symmetry in self._symmetries(struck, v):
             for k, other in zip(struck, symmetry, strict=True):
@@ -135,5 +135,5 @@ class _Problem:
 
 
 def _rows(rests: Meeting) -> list[Condition]:
-    """What holds in a contact that rests: its normal row, and if it rubs its slip."""
+    """The rows that hold in a contact that rests: its normal's, and if it rubs its slip's."""
     return [rests.normal] if rests.element.frictionless else [rests.normal, rests.tangent]
