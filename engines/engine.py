@@ -122,7 +122,8 @@ class Engine(Protocol):
         `gravity.x`, `gravity.y`, `<body>.mass`, `<body>.inertia` (turning bodies; in space
         `<body>.inertia_11` … `inertia_23`, and the z of every vector),
         `<contact>.friction`, `<joint>.friction_forward|friction_backward`, `<spring>.stiffness`,
-        `<spring>.rest_length`, `<damper>.damping`, `energy.kinetic`, `momentum.x`, `momentum.y`,
+        `<spring>.rest_length`, `<damper>.damping`, `<drag>.coefficient`, `energy.kinetic`,
+        `momentum.x`, `momentum.y`,
         as far as the engine knows them.
         """
         ...

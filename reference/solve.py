@@ -7,7 +7,7 @@ import ctypes
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,7 @@ from .integrators.now import begun, doing
 from .islands import Island, joined, parts, together
 from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from .motion.bodies import Answer, Beside
-from .motion.follow import Followed, either, follow
+from .motion.follow import Followed, follow
 from .refusal import bounded, refusals, unreached
 from .start.assembly import as_good, assembled, closure_of
 from .start.planar_closure import PlanarClosure
@@ -40,8 +40,6 @@ from .states.answer import answered
 from .system import Array, Pose, System, instant
 from .systems import written as written_system
 from .systems.states.stated import STATED
-
-DRAWN = 1e-11  # the tolerance of a step, of a motion that is drawn and not compared
 
 
 @dataclass(frozen=True)
@@ -68,23 +66,6 @@ def solve(case: Case) -> Solution:
     with noting() as equations, bounded(case), one_thread():
         motion, checks = _moved(case) if case.states is None else answered(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
-
-
-def between(case: Case, times: Array) -> dict[str, Array]:
-    """The states of each body (N, …) at any times (N,) [s] of a motion that `solve` has certified.
-
-    They follow from the generated mechanism to DRAWN, and are no answer of their own: what is drawn
-    between the samples.
-    """
-    states: dict[str, Array] = {}
-    coarsely = partial(either, tolerance=DRAWN)
-    with bounded(case), one_thread():
-        for part in parts(case):
-            system = mechanism(part)
-            followed = follow(system, times, by=coarsely)
-            rows = list(zip(times.tolist(), followed.phase.tolist(), followed.y, strict=True))
-            states |= Answer(system, followed).along(rows, forces=False).states
-    return {body: states[body] for body in case.scene.bodies}
 
 
 def _moved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
@@ -161,10 +142,11 @@ def _switched(answer: Answer, motion: Trajectory, end: float) -> Trajectory:
     )
 
 
-def motion_of(case: Case) -> Callable[[Array], Trajectory]:
+def motion_of(case: Case, *, forces: bool = True) -> Callable[[Array], Trajectory]:
     """Returns a function for the motion that `solve` certifies at other times [s] up to its end.
 
-    It is followed once more, and each state at another time is a step from there.
+    It is followed once more, and each state at another time is a step from there. forces: whether
+    reactions are asked for.
     """
     begun(case.name)
     answers = list[tuple[Case, Mechanism, Answer]]()
@@ -179,7 +161,7 @@ def motion_of(case: Case) -> Callable[[Array], Trajectory]:
         islands = list[Island]()
         with one_thread():
             for part, generated, answer in answers:
-                motion = _switched(answer, answer.at(times), part.duration)
+                motion = _switched(answer, answer.at(times, forces=forces), part.duration)
                 islands.append(Island(part, motion, (), generated.base))
         return islands[0].motion if len(islands) == 1 else joined(case, islands, times)
 

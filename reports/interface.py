@@ -18,6 +18,7 @@ import numpy as np
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake, Source, nearest
+from ..cases.scene.unnamed import through
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,7 +41,8 @@ class Reference:
     the angle [rad] from where it began. units: of its columns. events: the name, the number from 1
     and the time [s] of each. checks: what the reference was held against, the difference, the bound
     that it keeps, and of a bounded quantity what it is certified to. allowed: of each quantity that
-    the case bounds.
+    the case bounds. warnings: sentences on what the motion shows that is no mistake, and is most
+    likely not meant.
     """
 
     case: str
@@ -49,6 +51,7 @@ class Reference:
     events: "pd.DataFrame"
     checks: "pd.DataFrame"
     allowed: Mapping[str, float]
+    warnings: tuple[str, ...] = ()
 
     def plot(self, quantities: str | Sequence[str] = ()) -> "Drawing":
         """A matplotlib figure of columns of `motion`; of those that the case bounds for none.
@@ -183,6 +186,7 @@ def solve(word: Word) -> Reference:
         events=pd.DataFrame(times, columns=["event", "k", "time"]),
         checks=pd.DataFrame([vars(check) | {"holds": check.holds} for check in solution.checks]),
         allowed={name: bar for name, bar in case.allow.items() if bar is not None},
+        warnings=() if case.states else (*through(case.scene, solution.trajectory),),
     )
 
 

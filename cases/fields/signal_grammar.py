@@ -68,7 +68,7 @@ class Pulse(Numbers):
     until: Instant
 
     def model_post_init(self, context: object) -> None:
-        if not self.begins < self.until:
+        if self.begins >= self.until:
             raise wrong(f"`until` ({self.until:g}) should be later than `from` ({self.begins:g})")
 
     @property
@@ -102,7 +102,7 @@ class Table(Numbers):
         if len(self.times) != len(self.values):
             raise wrong(f"has {len(self.times)} times and {len(self.values)} values")
         for before, after in pairwise(self.times):
-            if not before < after:
+            if before >= after:
                 raise wrong(f"`times` should rise, but {after:g} follows {before:g}")
 
     def noun(self) -> dict[str, Any]:

@@ -34,6 +34,9 @@ _STILL: dict[str, Any] = {"initial": {}, "duration": 1.0, "samples": 3}
 # Keys of the scene that name no part.
 _ALONE = (("gravity",), ("incline",), ("seen",), ("space",), ("drive",))
 
+# Sections beside the scene: where one stands deeper it is told so, whatever else is wrong there.
+_BESIDE = ("initial", "near", "events", "allow", "reach", "deviates", "variants", "parameters")
+
 # One set of names: they address quantities.
 NAMED = ("bodies", "joints", "constraints", "contacts", "forces")
 
@@ -87,17 +90,21 @@ def parse(data: Mapping[str, Any]) -> Parsed:
             first = not broken
             for found in error.errors(include_url=False):
                 path = _path(found["loc"])
+                what = found["msg"]
+                if deep := _too_deep(path, data):
+                    path, what = deep
+                    broken.add(path[-1:])  # what it holds may be meant elsewhere
                 # Of a parameter it is known already: what names it is as a wrong number is here.
                 if first and found.get("ctx", {}).get("number") and path[0] != "parameters":
                     rest, there = _without_number(rest, path)
                     if there:
-                        findings.append((path, found["msg"]))
+                        findings.append((path, what))
                         continue
                 cut = path[: _DEPTH.get(str(path[0]), 1)] if first else path[:1]
                 broken.add(cut)
                 _remove(rest, cut)
                 if first:  # later ones only follow from what was cut out
-                    findings.append((path, found["msg"]))
+                    findings.append((path, what))
             rest = {**{k: v for k, v in _HOLLOW.items() if (k,) in broken}, **rest}
 
 
@@ -117,6 +124,14 @@ def _path(loc: tuple[str | int, ...]) -> Path:
     if loc[0] == "step":
         loc = (loc[0], *loc[2:])
     return loc[:-1] if len(loc) > 1 and loc[-1] == "[key]" else loc
+
+
+def _too_deep(path: Path, data: Mapping[str, Any]) -> Finding | None:
+    """Where a section stands that belongs beside `scene`, if the mistake is there or just below."""
+    for k in (1, 2):  # in another section, or in one of the scene's
+        if len(path) in (k + 1, k + 2) and path[k] in _BESIDE and path[k] not in data:
+            return path[: k + 1], f"{path[k]!r} stands beside `scene`, at the file's margin"
+    return None
 
 
 def _without_number(data: Any, path: tuple[Any, ...]) -> tuple[Any, bool]:

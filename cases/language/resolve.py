@@ -12,6 +12,7 @@ from ..scene import STANDARD_GRAVITY, Scene
 from ..scene.frame import PLANE, SPACE
 from ..scene.joint import Joint
 from ..scene.point import CENTER, anchor
+from ..scene.rotation import UPRIGHT
 from .grammar.file import File
 from .grammar.file import Source as Book
 
@@ -72,7 +73,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,
         scene=scene,
-        initial=_turned(_placements(file.initial, scene), scene),
+        initial=_turned(_placements(file.initial, scene), scene, file.events),
         near=_placements(file.near, scene),
         duration=file.duration if states is None else states.random - 1.0,
         samples=file.samples if states is None else states.random,
@@ -128,23 +129,53 @@ def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]
     }
 
 
-def _turned(starts: dict[str, Placement], scene: Scene) -> dict[str, Placement]:
-    """With the angle 0 of each disk that gives none, if nothing depends on it: disks are alike."""
-    if scene.frame is not PLANE:
-        return starts
-    held = {at.body for joint in scene.joints.values() for at in joint.refers()}
-    marked = (*scene.constraints.values(), *scene.forces.values(), *scene.contacts.values())
+def _turned(
+    starts: dict[str, Placement], scene: Scene, events: Mapping[str, Mapping[str, Any]]
+) -> dict[str, Placement]:
+    """With the attitude 0 of each disk or sphere that gives none, if nothing depends on it."""
+    in_space = scene.frame is not PLANE
+    marks = [name.split(".", 1) for rules in events.values() for name in rules]
+    joints = [
+        joint
+        for joint in scene.joints.values()
+        if [joint.name, "angle"] in marks or not _turns_alike(joint, starts, scene)
+    ]
+    held = {at.body for joint in joints for at in joint.refers()}
+    held |= {part for part, field in marks if field == "angle" or "." in field}  # of a point
+    marked = (
+        *scene.constraints.values(),
+        *scene.forces.values(),
+        *scene.contacts.values(),
+        *scene.joints.values(),
+    )
     held |= {at.body for one in marked for at in one.refers() if at.point != CENTER}
     held |= {one.at.body for one in scene.constraints.values()}
     axed = (force for force in scene.forces.values() if getattr(force, "along", None))
     held |= {at.body for force in axed for at in force.refers()}
-    free = (b.name for b in scene.bodies.values() if b.shape == "disk" and b.name not in held)
+    shape = "sphere" if in_space else "disk"  # each looks alike however it is turned
+    free = (b.name for b in scene.bodies.values() if b.shape == shape and b.name not in held)
     found = dict(starts)
     for name in free:
         place = starts.get(name, Placement())
-        if "angle" not in place.given and not place.points and not place.on:
+        if in_space and place.attitude is None and not place.points:
+            found[name] = replace(place, attitude=UPRIGHT)
+        elif not (in_space or "angle" in place.given or place.points or place.on):
             found[name] = replace(place, given={**place.given, "angle": 0.0})
     return found
+
+
+def _turns_alike(joint: Joint, starts: Mapping[str, Placement], scene: Scene) -> bool:
+    """Whether a joint holds both parts in the same way however they are turned.
+
+    So does what holds nothing but their distance or a point, and gives and is driven by no angle.
+    """
+    kinds = {freedom.kind for freedom in joint.freedoms}
+    given = starts.get(joint.name, Placement())
+    winds = any(force.winds for force in scene.forces.values() if force.about == joint.name)
+    driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
+    said = given.attitude is not None or any(turn.name in given.given for turn in joint.turns)
+    turning = {"turn"} if scene.frame is PLANE else {"ball"}
+    return turning <= kinds <= {*turning, "swing"} and not (said or winds or driven)
 
 
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:

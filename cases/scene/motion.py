@@ -11,6 +11,8 @@ from .frame import PLANE, SPACE
 from .point import GROUND, Anchor, GroundPoint
 from .rotation import turned as rotated
 
+MEETING = 16 * float(np.finfo(np.float64).eps)  # of the ends' places: nearer is rounding
+
 
 @dataclass(frozen=True)
 class Motion:
@@ -30,11 +32,13 @@ class Motion:
         return self.bodies[anchor.body].point(states, anchor.point)
 
     def line(self, a: Anchor, b: Anchor) -> tuple[Array, Array]:
-        """Length (N,) of the line from a to b, and its rate (zero where the length is zero)."""
-        place, velocity = np.hsplit(self.point(b) - self.point(a), 2)
-        length = np.sqrt(np.sum(place * place, axis=1))
-        rate = np.sum(place * velocity, axis=1) / np.where(length > 0, length, 1.0)
-        return length, rate
+        """Length (N,) of the line from a to b, and its rate; where they meet, as they part."""
+        (from_, v_a), (to, v_b) = (np.hsplit(self.point(end), 2) for end in (a, b))
+        place, velocity = to - from_, v_b - v_a
+        length, speed = (np.sqrt(np.sum(x * x, axis=1)) for x in (place, velocity))
+        apart = length > MEETING * np.max(np.abs(np.hstack([from_, to])), axis=1)
+        rate = np.sum(place * velocity, axis=1) / np.where(apart, length, 1.0)
+        return length, np.where(apart, rate, speed)
 
     def turned(self, body: str) -> tuple[Array | float, Array | float]:
         """Angle [rad] and rate [rad/s] of a body's axes, (N,) each; 0 of the ground's."""

@@ -61,7 +61,7 @@ class Pymunk:
         refusal = unbuildable(scene)
         if refusal:
             return [Refusal("native", refusal)]
-        without = [Refusal("native", why) for why in not_native(scene)]
+        without = [Refusal("native", why) for why in not_native(scene, start)]
         if without and not self._tuned:
             return without
         ways = plans.ways(scene, start) if self._tuned else ("native",)

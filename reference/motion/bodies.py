@@ -193,9 +193,9 @@ class Answer:
         rows = zip(times.tolist(), phases, y, strict=True)
         return self.turns.with_turns(self._bodies(rows, forces=True))
 
-    def at(self, times: Array) -> Trajectory:
-        """The motion at any times [s] up to the last sample."""
-        return self.along(rows_at(self.system, self.followed, times))
+    def at(self, times: Array, *, forces: bool) -> Trajectory:
+        """The motion at any times [s] up to the last sample, with reactions or without."""
+        return self.along(rows_at(self.system, self.followed, times), forces=forces)
 
     def blows(self) -> list[Change]:
         """Returns the changes of mode at which rates jump, as those of an impact do."""

@@ -9,10 +9,23 @@ from ...cases.mistake import CaseError
 from ..system import Array
 from . import messages
 from .planar_closure import PlanarClosure
-from .search import BESIDE, DEAD, FAR, NEAR, RANK, SAME, least_of, null, search
+from .search import (
+    BESIDE,
+    CLOSED,
+    DEAD,
+    FAR,
+    NEAR,
+    RANK,
+    SAME,
+    least_of,
+    newton,
+    null,
+    search,
+)
 from .spatial_closure import SpatialClosure
 
 ASIDE = 1e-2  # of the size, or rad: beside a dead centre
+ELSEWHERE = 0.5  # of the size, or rad: rows that repeat others there do so for good
 
 EitherClosure = PlanarClosure | SpatialClosure
 
@@ -70,8 +83,23 @@ def _determined(closure: EitherClosure, q: Array) -> None:
             # What the smallest values that count leave of what is determined is as small as they.
             names = closure.open_names(q, loose, max(SAME, 10 * below))
             if below == RANK and not _only_here(closure, q):
-                raise messages.missing(closure.case, len(ways), names)
+                missing = messages.missing(closure.case, len(ways), names)
+                if (part := _repeated(closure, q, loose)) is not None:  # with any that were given
+                    mistakes = messages.dependent(closure.case, part).mistakes
+                    raise CaseError([*mistakes, *missing.mistakes])
+                raise missing
             raise messages.dead_centre(closure.case, names)
+
+
+def _repeated(closure: EitherClosure, q: Array, loose: Array) -> str | None:
+    """The part whose rows repeat those of others here and elsewhere along the open directions."""
+    part = closure.dependent(q, RANK)
+    if part is None:
+        return None
+    along = np.random.default_rng(seed=1).uniform(-1.0, 1.0, len(loose)) @ loose
+    there, gap = newton(closure, closure.moved(q, ELSEWHERE * along * closure.units))
+    closes = gap < CLOSED * closure.rounding
+    return part if closes and closure.dependent(there, RANK) is not None else None
 
 
 def _only_here(closure: EitherClosure, q: Array) -> bool:

@@ -27,7 +27,7 @@ from ..system import Array
 from . import messages
 from .closure import Closure, Coordinate, Equation, joined
 from .messages import DEGREES
-from .search import NEAR, SAME, least_of
+from .search import NEAR, SAME, least_of, rank
 from .spatial_guess import laid_out, off_by, together
 
 SPINS = ("omega_1", "omega_2", "omega_3")
@@ -306,27 +306,59 @@ class SpatialClosure(Closure):
         return _text(self.attitude(part, q)) if field == "attitude" else super().shown(q, name)
 
     def open_names(self, q: Array, loose: Array, small: float) -> list[str]:
-        """The coordinates that change by more than `small` along the directions `loose` (k, n)."""
-        names: list[str] = []
-        for joint in self.scene.joints.values():
-            for c in self.coordinates(joint, q):
-                if np.max(np.abs(loose @ (c.row * self.units))) > small and c.freedom.name:
-                    names.append(f"{joint.name}.{c.freedom.name}")
-            if any(f.kind == "ball" for f in joint.freedoms):
-                rows = self.relative(joint, q)
-                if np.max(np.abs(loose @ (rows * self.units).T)) > small:
-                    names.append(f"{joint.name}.attitude")
+        """The coordinates that change by more than `small` along the directions `loose` (k, n).
+
+        Of joints first, then of bodies that none holds, then of others as far as these tell less.
+        """
+        joints = {name: rows for name, rows in self._of_joints(q) if _moved(loose, rows) > small}
         held = {end.body for joint in self.scene.joints.values() for end in joint.refers()}
         free = self._open_places(loose, small)
-        return names + [name for name in free if name.partition(".")[0] not in held] or free
+        told = {**joints, **{name: rows for name, rows in free.items() if _body(name) not in held}}
+        for name, rows in sorted(free.items(), key=lambda one: not one[0].endswith(".attitude")):
+            if _told(loose, [*told.values(), rows]) > _told(loose, [*told.values()]):
+                told[name] = rows
+        return [*told]
 
-    def _open_places(self, loose: Array, small: float) -> list[str]:
-        """The open coordinates of bodies."""
+    def _of_joints(self, q: Array) -> Iterator[tuple[str, Array]]:
+        """Yields the coordinates of joints by name, with their rows in units of the size.
+
+        Not of a ball whose one part has an attitude that is given: the other's is easier to say.
+        """
+        for joint in self.scene.joints.values():
+            for c in self.coordinates(joint, q):
+                if c.freedom.name:
+                    yield f"{joint.name}.{c.freedom.name}", c.row[None] * self.units
+            ends = [self.where.slots[end.body] for end in joint.refers() if end.body != GROUND]
+            if any(f.kind == "ball" for f in joint.freedoms) and not any(
+                at.attitude in self.given for at in ends
+            ):
+                yield f"{joint.name}.attitude", self.relative(joint, q) * self.units
+
+    def _open_places(self, loose: Array, small: float) -> dict[str, Array]:
+        """The open coordinates of bodies, with their rows."""
         places = {"vx": "x", "vy": "y", "vz": "z"}
-        columns = np.flatnonzero(np.max(np.abs(loose), axis=0) > small).tolist()
-        parts = (self.where.rate_names[i].partition(".") for i in columns)
-        named = (f"{body}.{places.get(rate, 'attitude')}" for body, _, rate in parts)
-        return list(dict.fromkeys(named))
+        rows: dict[str, list[Array]] = {}
+        for row, name in zip(np.eye(self.n), self.where.rate_names, strict=True):
+            body, _, rate = name.partition(".")
+            rows.setdefault(f"{body}.{places.get(rate, 'attitude')}", []).append(row)
+        stacked = {name: np.array(several) for name, several in rows.items()}
+        return {
+            name: several for name, several in stacked.items() if _moved(loose, several) > small
+        }
+
+
+def _moved(loose: Array, rows: Array) -> float:
+    """By how much directions (k, n) change what has these rows."""
+    return float(np.max(np.abs(loose @ rows.T), initial=0.0))
+
+
+def _told(loose: Array, rows: Sequence[Array]) -> int:
+    """How many of the directions (k, n) all rows together tell apart."""
+    return rank(loose @ np.vstack(rows).T) if rows else 0
+
+
+def _body(name: str) -> str:
+    return name.partition(".")[0]
 
 
 def closes(scene: Scene) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import fields
 from itertools import chain
 from pathlib import Path
 from typing import Any, get_args
+from xml.etree.ElementTree import ParseError, iterparse
 
 from ... import engines
 from ...cases.case import Case
@@ -77,7 +78,7 @@ def sound_cases(
                     what = f"{other} already has the name {case.name!r}: rename one of the files"
                     mistakes.append(Mistake(case.source.file, 0, 0, "", what))
         except CaseError as error:
-            mistakes += _settings(word) or error.mistakes
+            mistakes += _another_kind(word) or error.mistakes
         except OSError as error:  # in a folder that may not be read, or of a name too long for any
             mistakes.append(Mistake(word, 0, 0, "", f"cannot be read: {error.strerror}"))
     return sound(list(cases.values()), mistakes), mistakes
@@ -104,11 +105,13 @@ def sound(cases: Sequence[Case], mistakes: Sequence[Mistake]) -> list[Case]:
     return [case for case in cases if case.source.file not in mistaken]
 
 
-def _settings(word: str) -> list[Mistake]:
-    """One mistake in place of many, where what should be a case is a file of own settings."""
+def _another_kind(word: str) -> list[Mistake]:
+    """One mistake in place of many, where what should be a case is a file of another kind."""
     file = Path(word)
     if not file.is_file():
         return []
+    if model := _model(file):
+        return [Mistake(word, 0, 0, "", model)]
     try:
         keys = set(read(file).data)
     except CaseError:
@@ -116,6 +119,24 @@ def _settings(word: str) -> list[Mistake]:
     what = f"holds an engine's options, and is no case: say --settings {word}"
     ours = bool(keys) and keys <= set(engines.names())
     return [Mistake(word, 0, 0, "", what)] if ours else []
+
+
+MODELS = {"mujoco": "an MJCF model", "robot": "a URDF model", "sdf": "an SDF model"}
+"""What a file of XML is, by the name of its root element."""
+
+
+def _model(file: Path) -> str:
+    """The words for a file that is XML; an empty text for any other."""
+    try:
+        root = next(iterparse(file, events=("start",)))[1].tag.rpartition("}")[2]
+    except (ParseError, StopIteration, OSError, ValueError, LookupError):  # as of its encoding
+        return ""
+    kind = MODELS.get(root, f"XML with the root <{root}>")
+    written = "; `textmech show CASE --engine mujoco` writes MJCF" if root == "mujoco" else ""
+    return (
+        f"is {kind}; textmech reads cases as YAML, where the scene is written in words of its own "
+        f"(cases/README.md){written}"
+    )
 
 
 def nameable(word: str) -> None:

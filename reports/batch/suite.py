@@ -8,6 +8,7 @@ from math import ceil, inf, log10
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
+from ...cases.scene.unnamed import through
 from ...engines.engine import Engine
 from ...reference.certificate.agreement import Check
 from ...reference.solve import Solution
@@ -70,6 +71,16 @@ class Report:
     def fails(self) -> bool:
         """Whether a verdict FAILS, in a row or in a certificate."""
         return any(row.verdict == FAILS for row in (*self.comparisons, *self.certificates))
+
+    def warnings(self) -> list[tuple[str, str]]:
+        """(case, sentence) of what a motion shows that is no mistake, and most likely not meant."""
+        moving = [case for case in self.cases if case.states is None]
+        return [
+            (case.name, what)
+            for case in moving
+            if (solution := self.solutions.get(case.name))
+            for what in through(case.scene, solution.trajectory)
+        ]
 
 
 def measure(

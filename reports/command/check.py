@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 class Checked:
     """A file's cases by name, its mistakes, and (case, check) of each check that does not hold.
 
-    otherwise: sentences, of cases whose hand-written system moves as another scene would.
+    otherwise: sentences, of cases whose hand-written system moves as another scene would. warnings:
+    (case, sentence) of what a motion shows that is no mistake, and most likely not meant.
     """
 
     file: str
@@ -29,6 +30,7 @@ class Checked:
     mistakes: Sequence[Mistake]
     broken: Sequence[tuple[str, "Check"]]
     otherwise: Sequence[str] = ()
+    warnings: Sequence[tuple[str, str]] = ()
 
 
 @click.command()
@@ -103,6 +105,7 @@ class _Task:
 
 def _solved(task: _Task) -> Checked:
     """Solves a file's cases: finds the mistakes and failed checks that only references show."""
+    from ...cases.scene.unnamed import through
     from ...reference.solve import solve
     from ..compare.events.states import mistaken
     from ..compare.judge.uncertified import otherwise
@@ -118,6 +121,12 @@ def _solved(task: _Task) -> Checked:
         [mistake for case, solution in solved for mistake in mistaken(case, solution.trajectory)],
         [(case.name, c) for case, solution in solved for c in solution.checks if not c.holds],
         [what for _, solution in solved if (what := otherwise(solution).rstrip("; "))],
+        [
+            (case.name, what)
+            for case, solution in solved
+            if case.states is None
+            for what in through(case.scene, solution.trajectory)
+        ],
     )
 
 
@@ -127,6 +136,9 @@ def _lines(one: Checked) -> Iterator[str]:
     for _, broken in one.broken:
         numbers = f"{broken.difference:.2e} is above {broken.bound:.1e}"
         yield f"{one.file}: FAILS: the reference's {broken.name}: {numbers}"
+    for case, what in one.warnings:
+        variant = f" {case}:" if len(one.cases) > 1 else ""
+        yield f"{one.file}: warning:{variant} {what}"
     if not (one.mistakes or one.broken):
         many = "s" if len(one.cases) > 1 else ""
         yield f"{one.file}: {len(one.cases)} case{many}, no mistakes"
@@ -144,4 +156,5 @@ def _document(one: Checked) -> dict[str, object]:
             for case, c in one.broken
         ],
         "because": [*dict.fromkeys(one.otherwise)],
+        "warnings": [{"case": case, "what": what} for case, what in one.warnings],
     }

@@ -11,7 +11,7 @@ from ...cases.scene.observe import observe
 from ...cases.scene.point import CENTER
 from ...cases.scene.states import MASS_MATRIX
 from ...cases.trajectory import Array, Trajectory
-from ...reference.solve import between
+from ...reference.solve import motion_of
 from ..batch.suite import Report
 from ..batch.trials import Tried
 from . import poses
@@ -65,14 +65,15 @@ def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
 
 def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Mapping[str, Array]]:
     """The motion at its samples, and between them too where they are too few to be drawn."""
-    times, states = case.times, reference.states
+    times, states, between = case.times, reference.states, None
     while (
         len(times) < MOST * case.samples and (parts := poses.closer(case, times, states, size)) > 1
     ):
         whole = np.arange(len(times))
         finer = np.linspace(0, len(times) - 1, parts * (len(times) - 1) + 1)
         times = np.interp(finer, whole, times)  # every sample is one of them
-        states = between(case, times)
+        between = between or motion_of(case, forces=False)
+        states = between(times).states
     return times, states
 
 

@@ -44,6 +44,7 @@ def of_run(
         "events": [asdict(row) for row in report.instants],
         "reference": [asdict(row) for row in report.certificates],
         "causes": [asdict(row) for row in report.causes],
+        "warnings": [{"case": case, "what": what} for case, what in report.warnings()],
         "mistakes": mistakes(wrong),
         "written": None if written is None else str(written),
         "exit_code": exit_code,

@@ -25,6 +25,9 @@ def show(
     if detailed:
         for told in (*rows(report.comparisons), *certificate_lines(report.certificates)):
             say(told)
+    for case, warning in report.warnings():
+        for told in _wrapped(f"{case}: warning: {warning}", ""):
+            say(told)
     _summary(report, cures or {})
     for check in report.certificates:
         if check.verdict == FAILS:

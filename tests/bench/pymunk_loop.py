@@ -20,6 +20,7 @@ from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import before_each, building
 from textmech.engines.pymunk.callbacks.cut import cuts
 from textmech.engines.pymunk.callbacks.force import lacking
+from textmech.engines.pymunk.model.damping import slowing
 from textmech.engines.pymunk.stepping.run import COLD
 from textmech.engines.pymunk.stepping.scene import build
 
@@ -114,7 +115,7 @@ def sayable(scene: Scene) -> bool:
     """Whether the law is one of those here, of slides; the smooth one is unstable as a force."""
     dry = [joint for joint in scene.joints.values() if joint.dry_friction]
     smooth = any(joint.dry_friction and joint.dry_friction.smooth for joint in dry)
-    elsewhere = scene.pressed or lacking(scene)
+    elsewhere = scene.pressed or lacking(scene, {}) or slowing(scene)
     return not elsewhere and not smooth and all(joint.shifts for joint in dry)
 
 

@@ -6,12 +6,14 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.fields import words as wording
 from textmech.cases.find import find
 from textmech.cases.language import parse
 from textmech.cases.load import load
 from textmech.cases.mistake import SHOWN, CaseError, nearest
+from textmech.cases.scene.forces import limit
 
 SYSTEMS = {"pendulum": ("m", "l", "phi0"), "wheel": ("R",)}
 ENGINES = {"mujoco": ("shipped", "tuned"), "pymunk": ("shipped", "tuned"), "broken": None}
@@ -362,3 +364,54 @@ def test_of_very_many_unknown_keys_only_those_that_are_shown_are_looked_up(
     assert len([m for m in caught.value.mistakes if "unknown key" in m.what]) == 501
     assert len(asked) == SHOWN
     assert "unknown key 'samples0'; did you mean 'samples'?" in str(caught.value)
+
+
+EVENTS = "events: {halt: {guide.slip: stays zero}, top: {ball.vy: falls to zero}}\n"
+DEEPER = [
+    ("scene:\n", f"scene:\n  {EVENTS}", "7:3: scene.events"),
+    ("  bodies:\n", f"  bodies:\n    {EVENTS}", "9:5: scene.bodies.events"),
+    ("near: {", f"near: {{{EVENTS.strip()}, ", "23:8: near.events"),
+    ("allow: {", f"allow: {{{EVENTS.strip()}, ", "27:9: allow.events"),
+]
+
+
+@pytest.mark.parametrize(("at", "deeper", "place"), DEEPER)
+def test_a_section_that_stands_too_deep_is_told_once(
+    tmp_path: Path, at: str, deeper: str, place: str
+) -> None:
+    """And what it would have named, as `halt.time`, is no second mistake."""
+    (mistake,) = mistakes(tmp_path, SOUND.replace(EVENTS, "").replace(at, deeper, 1)).mistakes
+    told = f"{mistake.line}:{mistake.column}: {mistake.where}"
+    assert told == place
+    assert mistake.what == "'events' stands beside `scene`, at the file's margin"
+
+
+@pytest.mark.mutant("a section that stands too deep is taken for a misspelt key")
+def test_a_section_that_is_taken_for_a_key_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(parse, "_too_deep", lambda path, data: None)
+    found = mistakes(tmp_path, SOUND.replace(EVENTS, "").replace("scene:\n", f"scene:\n  {EVENTS}"))
+    assert any("did you mean 'seen'" in mistake.what for mistake in found.mistakes)
+
+
+def test_a_part_may_be_called_as_a_section_is(tmp_path: Path) -> None:
+    """Beside a section that stands where it belongs the name is a body's."""
+    text = SOUND.replace(
+        "    ball: {particle", "    events: {partcle: {mass: 1}}\n    ball: {particle"
+    )
+    (mistake,) = mistakes(tmp_path, text).mistakes
+    assert mistake.what.startswith("unknown shape 'partcle'")
+
+
+@pytest.mark.mutant("a number that is none is compared with another")
+def test_what_follows_from_a_mistaken_number_is_not_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stops = "{stops: hinge, low: -120, high: 1}"
+    text = SOUND.replace("{torque: bar, sine: {amplitude: 1.0, angular_frequency: 20 rpm}}", stops)
+    (mistake,) = mistakes(tmp_path, text).mistakes
+    assert "nan" not in mistake.what
+    compared = otherwise(limit, "self.low >= self.high", "not self.low < self.high")
+    monkeypatch.setattr(limit.Stops, "unfit", compared.Stops.unfit)
+    assert any("is nan rad" in mistake.what for mistake in mistakes(tmp_path, text).mistakes)

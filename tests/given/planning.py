@@ -82,9 +82,13 @@ PAIRS = [(name, e) for name in COVERING for e in SETTINGS if builds(e, EVERY[nam
 
 
 def damps(engine: Engine, scene: Scene) -> list[Viscous]:
-    """The viscous slides that an engine damps by itself: MuJoCo those alike both ways."""
-    slides = of(Viscous, scene.forces.values()) if engine.name == "mujoco" else ()
-    return [f for f in slides if f.exponent in (1, 2, 3) if len({*astuple(f.coefficient)}) == 1]
+    """The viscous slides that an engine damps by itself: those alike both ways.
+
+    MuJoCo by three powers of the speed, pymunk by the first, of the one body of a shipped scene.
+    """
+    powers = (1, 2, 3) if engine.name == "mujoco" else (1,) if len(scene.bodies) == 1 else ()
+    slides = of(Viscous, scene.forces.values())
+    return [f for f in slides if f.exponent in powers if len({*astuple(f.coefficient)}) == 1]
 
 
 def own(engine: Engine, scene: Scene) -> bool:

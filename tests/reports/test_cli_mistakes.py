@@ -11,8 +11,11 @@ from given.pendulum import pendulum
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
+from textmech.cases.mistake import CaseError
 from textmech.reference import solve
 from textmech.reference.certificate.agreement import Check
+from textmech.reports import load
+from textmech.reports.batch import selection
 from textmech.reports.cli import command
 
 
@@ -128,6 +131,53 @@ def test_own_settings_that_are_given_as_a_case_are_one_mistake(tmp_path: Path) -
         assert done.returncode == 2
         assert done.stderr.startswith(f"{file}: holds an engine's options, and is no case: say")
         assert "1 mistake" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("<!-- of a robot -->\n<mujoco model='m'>\n  <worldbody/>\n</mujoco>\n", "an MJCF model"),
+        ("<?xml version='1.0'?>\n<robot name='r'><link name='a'/></robot>\n", "a URDF model"),
+        ("<sdf version='1.6'>\n  <model name='m'/>\n</sdf>\n", "an SDF model"),
+        ("<html>\n<p>unclosed", "XML with the root <html>"),
+    ],
+)
+def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: str) -> None:
+    """In every command that takes cases, and in Python; beside it nothing else is said of it."""
+    file = tmp_path / "model.xml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(CaseError) as error:
+        load(file)
+    (mistake,) = error.value.mistakes
+    assert mistake.what.startswith(f"is {told}; textmech reads cases as YAML")
+    assert ("show CASE --engine mujoco` writes MJCF" in mistake.what) == ("MJCF model" in told)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run",), ("check",), ("advise",), ("causes",),
+        ("show", "--engine", "mujoco"), ("plot", "--out", "x.svg"), ("page", "--out", "x.html"),
+    ],
+)  # fmt: skip
+def test_every_command_tells_a_model_as_one(tmp_path: Path, words: tuple[str, ...]) -> None:
+    (tmp_path / "model.xml").write_text("<mujoco/>\n", encoding="utf-8")
+    done = textmech(*words, "model.xml", folder=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.startswith("model.xml: is an MJCF model; textmech reads cases as YAML")
+
+
+@pytest.mark.mutant("a model of an engine is read as YAML")
+def test_a_model_that_is_read_as_a_case_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(selection, "_model", lambda file: "")
+    file = tmp_path / "model.xml"
+    file.write_text("<mujoco>\n  <worldbody/>\n</mujoco>\n", encoding="utf-8")
+    with pytest.raises(CaseError, match="should be a map of keys") as error:
+        load(file)
+    assert "MJCF" not in str(error.value)
 
 
 def test_a_file_of_settings_without_its_ending_is_found_near(tmp_path: Path) -> None:

@@ -50,6 +50,7 @@ def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
         "events",
         "reference",
         "causes",
+        "warnings",
         "mistakes",
         "written",
         "exit_code",
@@ -112,7 +113,7 @@ def test_a_wrong_word_is_in_it(words: tuple[str, ...]) -> None:
 
 def test_check_tells_each_file(new: Path) -> None:
     found = document("check", new)
-    nothing = {"mistakes": [], "fails": [], "because": []}
+    nothing = {"mistakes": [], "fails": [], "because": [], "warnings": []}
     assert found == {"files": [{"file": str(new), "cases": ["cart"], **nothing}], "exit_code": 0}
 
 

@@ -198,7 +198,7 @@ def _overlay_schema(schema: dict[str, Any]) -> None:
 class File(Part):
     """A case: one claim about the motion of one scene, or about its states."""
 
-    elsewhere = {"drive": "it stands in `scene`"}  # noqa: RUF012  # a ClassVar of Part
+    elsewhere = dict.fromkeys(Scene.model_fields, "it stands in `scene`")
 
     title: Annotated[str, Text()]
     source: Source = Source()

@@ -73,6 +73,10 @@ class Drag(Force):
         across = self.across or 0.0
         return Bounds(self.coefficient, back), Bounds(across, across)
 
+    def numbers(self) -> dict[str, float]:
+        """d, of what has no edge."""
+        return {"coefficient": self.coefficient} if self.along is None else {}
+
     def quantities(self) -> dict[str, Fields]:
         """fx, fy [N] on the point, in ground axes, and force, their size."""
         return {self.name: dict.fromkeys(("fx", "fy", "force"), ("N", "force"))}

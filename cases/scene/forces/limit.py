@@ -86,7 +86,7 @@ class Stops(Limit, Turning):
         """It needs one, and with both there has to be something between them."""
         if self.low is None and self.high is None:
             return "needs `low` or `high`, the angle at which the turn ends"
-        if self.low is not None and self.high is not None and not self.low < self.high:
+        if self.low is not None and self.high is not None and self.low >= self.high:
             return f"`low` should be less than `high`, {self.high:g} rad, is {self.low:g} rad"
         return None
 

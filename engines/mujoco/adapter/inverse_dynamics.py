@@ -71,7 +71,8 @@ def _withheld(scene: Scene, name: str) -> str:
     """Why a quantity is not told, or nothing."""
     part, _, field = name.partition(".")
     if part in scene.forces:
-        return next(why for force, why in lacking(scene) if force.name == part)
+        alone = "adapter: what a damping of joints exerts is not asked of MuJoCo"
+        return next((why for force, why in lacking(scene) if force.name == part), alone)
     if field in _ENTRIES and scene.bodies[part].shape == "rigid":
         return f"adapter: {part} has no shape from which MuJoCo could compute it"
     return ""

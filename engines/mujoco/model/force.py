@@ -30,10 +30,12 @@ from ....cases.scene.forces.force import (
     Stops,
     Torque,
     Viscous,
+    of,
 )
 from ....cases.scene.forces.muscle import Contracting
 from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from ....cases.trajectory import Array
+from .drag import damped_slides, not_damping
 from .hinge import Hinge, hinge
 from .limit import (
     finish_rope,
@@ -81,6 +83,27 @@ def viscous_numbers(model: mujoco.MjModel, force: Viscous, along: Hinge) -> dict
     held = [model.dof_damping[dof], *np.ravel(model.dof_dampingpoly[dof])]
     d = float(held[_POWERS.index(force.exponent)])
     return {"forward": d, "backward": d}
+
+
+# Linear drag of a body, as the damping of its slides.
+
+
+def write_drag(sections: object, force: Drag, *slides: Hinge) -> None:
+    """Its coefficient, of each slide by which the body moves; of none where it is no damping."""
+    for slide in slides:
+        slide.give("damping", force.coefficient)
+
+
+def drag_damping(force: Drag, slip: Array) -> Array:
+    """(N,) what it exerts along a slide, by the slip [m/s]."""
+    return -force.coefficient * slip
+
+
+def drag_numbers(model: mujoco.MjModel, force: Drag, *slides: Hinge) -> dict[str, float]:
+    """The coefficient, as the compiled model holds it: where its slides differ, as no number."""
+    dofs = (model.jnt_dofadr[model.joint(slide.name).id] for slide in slides)
+    held = {float(np.ravel(model.dof_damping[dof])[0]) for dof in dofs}
+    return {"coefficient": held.pop() if len(held) == 1 else math.nan}
 
 
 # Forces about a joint: MuJoCo's own of the joint, or an actuator.
@@ -181,7 +204,7 @@ class Element:
     numbers: Callable[..., dict[str, float]] = lambda model, force, *about: {}
     signal: Callable[[Any], Signal] | None = None
     outer: Callable[[Any, Array, Array], Iterator[Outer]] = lambda *_: iter(())
-    lacks: Callable[[Any], str | None] = lambda force: None
+    lacks: Callable[[Scene, Any], str | None] = lambda scene, force: None
     damping: Callable[[Any, Array], Array] | None = None
     limit: "Limited | None" = None
 
@@ -203,7 +226,7 @@ class Limited:
 
 def lacking(scene: Scene) -> list[tuple[Force, str]]:
     """The forces that MuJoCo has no element for, and why."""
-    found = ((force, ELEMENTS[type(force)].lacks(force)) for force in scene.forces.values())
+    found = ((force, ELEMENTS[type(force)].lacks(scene, force)) for force in scene.forces.values())
     return [(force, why) for force, why in found if why is not None]
 
 
@@ -269,7 +292,7 @@ def numbers(scene: Scene, model: mujoco.MjModel) -> dict[str, float]:
     return {
         f"{force.name}.{key}": number
         for force in scene.forces.values()
-        if ELEMENTS[type(force)].lacks(force) is None
+        if ELEMENTS[type(force)].lacks(scene, force) is None
         for key, number in _held(scene, model, force).items()
     }
 
@@ -281,6 +304,14 @@ def _held(scene: Scene, model: mujoco.MjModel, force: Force) -> dict[str, float]
 def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterator[Hinge]:
     if force.about is not None:
         yield hinge(scene, force, root)
+    for drag in of(Drag, (force,)):
+        built = {} if root is None else {joint.get("name"): joint for joint in root.iter("joint")}
+        yield from (Hinge(name, built.get(name)) for name in damped_slides(scene, drag))
+
+
+def damps(scene: Scene, force: Force) -> list[str]:
+    """The joints that a force is about, or whose slides it damps, by MuJoCo's names."""
+    return [about.name for about in _about(scene, force)]
 
 
 def outer(scene: Scene, model: mujoco.MjModel, sizes: Array) -> Iterator[Outer]:
@@ -372,11 +403,18 @@ ELEMENTS: dict[type[Force], Element] = {
     Torsion: Element(torsion, torsion_numbers),
     TorsionDamper: Element(torsion_damper, torsion_damping),
     Motor: Element(motor, signal=lambda force: force.signal),
-    Drag: Element(lacks=lambda force: "engine: MuJoCo has no drag at a point of a body"),
-    Viscous: Element(write_viscous, viscous_numbers, lacks=not_polynomial, damping=damping),
-    Magnetic: Element(lacks=lambda force: "engine: MuJoCo has no force of a magnetic field"),
-    Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
-    LinearMuscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda force: ANOTHER),
+    Drag: Element(write_drag, drag_numbers, lacks=not_damping, damping=drag_damping),
+    Viscous: Element(
+        write_viscous,
+        viscous_numbers,
+        lacks=lambda scene, force: not_polynomial(force),
+        damping=damping,
+    ),
+    Magnetic: Element(lacks=lambda scene, force: "engine: MuJoCo has no force of a magnetic field"),
+    Muscle: Element(write_muscle, signal=lambda force: NOTHING, lacks=lambda scene, force: ANOTHER),
+    LinearMuscle: Element(
+        write_muscle, signal=lambda force: NOTHING, lacks=lambda scene, force: ANOTHER
+    ),
     Rope: Element(write_rope, rope_length, limit=Limited("rope", finish_rope, tension)),
     Stops: Element(
         write_stops, stop_numbers, limit=Limited("stop", finish_stops, pushing, lean_back)

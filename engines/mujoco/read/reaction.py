@@ -11,7 +11,7 @@ from ....cases.scene.frame import PLANE, SPACE
 from ....cases.trajectory import Array
 from ...law import TORQUES
 from ..model.drive import Drive
-from ..model.force import ELEMENTS, limit_force, outer
+from ..model.force import ELEMENTS, damps, limit_force, outer
 from ..model.loops import connections, pulled
 from ..model.pairs import pair_force
 from ..model.planes import touching
@@ -72,8 +72,8 @@ def damped(scene: Scene, joint: Joint) -> list[Callable[[Array], Array]]:
     return [
         partial(element.damping, force)
         for force in scene.forces.values()
-        if (element := ELEMENTS[type(force)]).damping and force.about == joint.name
-        if element.lacks(force) is None
+        if (element := ELEMENTS[type(force)]).damping and joint.name in damps(scene, force)
+        if element.lacks(scene, force) is None
     ]
 
 

@@ -44,7 +44,8 @@ def _withheld(scene: Scene, name: str) -> str:
     """Why a quantity is not told, or nothing."""
     part, _, field = name.rpartition(".")
     if part in scene.forces:
-        return next(why for force, why in lacking(scene) if force.name == part)
+        alone = "adapter: what a space's damping exerts is not asked of pymunk"
+        return next((why for force, why in lacking(scene, {}) if force.name == part), alone)
     if part == "momentum" and field == "angular":
         return "engine: pymunk has no angular momentum"
     if part == "energy" and field != "kinetic":

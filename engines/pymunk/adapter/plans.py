@@ -13,6 +13,7 @@ from ..callbacks.cut import cuts, lands
 from ..callbacks.force import damped, lacking
 from ..callbacks.friction import ruled
 from ..model.contact import closed
+from ..model.damping import slowing
 from ..model.edge import alone
 from ..model.pair import closed_pairs
 from ..model.slot import oblique
@@ -27,7 +28,8 @@ SIGNED = ("fx", "fy", "torque", "drive", "friction")
 def ways(scene: Scene, start: Start) -> tuple[Realised, ...]:
     """Edges by our driver, forces that pymunk has no element for by our law.
 
-    Dampers also by their law: pymunk applies its own after the kick, a first order.
+    Dampers also by their law: pymunk applies its own after the kick, a first order. So does its
+    space's damping, beside anything else that acts.
 
     Dry friction too: pymunk's has one bound, where the textbook's has up to four.
 
@@ -35,9 +37,9 @@ def ways(scene: Scene, start: Start) -> tuple[Realised, ...]:
     """
     if scene.constraints or strides(scene):
         return ("driver",)
-    if lacking(scene):
+    if lacking(scene, start):
         return ("law",)
-    law = damped(scene) or any(scene.dampers()) or ruled(scene)
+    law = damped(scene) or any(scene.dampers()) or bool(slowing(scene)) or ruled(scene)
     driver = lands(scene, start)
     return ("native", *(("law",) if law else ()), *(("driver",) if driver else ()))
 
@@ -92,7 +94,9 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     jumps = (rubs or met) and any(law.corners for law in scene.laws())
     jointed = realised == "driver" and met and bool(scene.joints)  # no gap is closed in a part
     told = brakes or jumps or strides(scene) or sided or roped or jointed
-    return told or (native and (damped(scene) or met))
+    pulled = any(scene.gravity) or len(scene.forces) > len(slowing(scene))
+    slowed = bool(slowing(scene)) and (pulled or met)
+    return told or (native and (damped(scene) or met or slowed))
 
 
 def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:
@@ -136,8 +140,12 @@ def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, ste
     slots = [joint.name for joint in scene.joints.values() if oblique(scene, joint)]
     if slots and known.get("slot.across"):
         words.append(f"{', '.join(slots)} held across by a pin joint that is carried along")
-    if ours := [force.name for force, _ in lacking(scene)]:
-        words.append(f"{', '.join(ours)} by our law before each step, which the script has not")
+    lacked = [force.name for force, _ in lacking(scene, start)]
+    if lacked:
+        words.append(f"{', '.join(lacked)} by our law before each step, which the script has not")
+    elif realised != "native" and (ours := [force.name for force in slowing(scene)]):
+        what = "by our law before each step, in place of the space's damping"
+        words.append(f"{', '.join(ours)} {what}")
     if strides(scene):
         words.append("before each step the floor is told which foot it meets")
     if realised == "driver" and cuts(scene):

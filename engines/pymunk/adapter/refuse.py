@@ -4,6 +4,7 @@ import math
 
 from ....cases.scene import GROUND, Scene
 from ....cases.scene.frame import PLANE
+from ...engine import Start
 from ...foot_contact import NO_STRIDE, strides
 from ..callbacks.force import ELEMENTS, lacking, throws_back
 from ..model.drive import NO_LINE
@@ -11,11 +12,11 @@ from ..model.edge import NO_EDGE
 from ..model.pair import MOST
 
 
-def not_native(scene: Scene) -> list[str]:
+def not_native(scene: Scene, start: Start) -> list[str]:
     """Why pymunk has nothing of its own for the scene; our laws and our driver have."""
     edges = [NO_EDGE] if scene.constraints else []
     strode = [NO_STRIDE] if strides(scene) else []
-    return [*edges, *strode, *(why for _, why in lacking(scene))][:1]
+    return [*edges, *strode, *(why for _, why in lacking(scene, start))][:1]
 
 
 def unbuildable(scene: Scene) -> str | None:

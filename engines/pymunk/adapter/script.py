@@ -109,7 +109,7 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
     lines = [
         "space = pymunk.Space()",
         f"space.gravity = {written(world.space.gravity)}",
-        *(f"{name} = {written(x)}" for name, x in numbers.items() if name.startswith("space.")),
+        *_attributes(world, numbers),
         "ground = space.static_body",
         "bodies = {}",
         *(["joints = []  # all that hold bodies"] if _kept(world) else []),
@@ -129,6 +129,14 @@ def building(world: World, start: Start, numbers: Mapping[str, Any]) -> list[str
     if seed:
         lines += seeds(world, start, seed)
     return lines + ([SHIFT] if midpoint else [])
+
+
+def _attributes(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
+    """The setting's numbers of the space, and its damping where that is a force of the scene."""
+    slowed = {"space.damping": world.space.damping} if world.slowed else {}
+    for name, value in {**numbers, **slowed}.items():
+        if name.startswith("space."):
+            yield f"{name} = {written(value)}"
 
 
 def before_each(world: World, numbers: Mapping[str, Any]) -> list[str]:

@@ -18,7 +18,7 @@ from ..model.contact import closed
 from ..model.slot import oblique
 from ..model.world import World
 from .foot import Carrier, Foot
-from .force import ELEMENTS, lacking
+from .force import ELEMENTS
 
 _SHORTEST = 1e-9  # of a step: what lasts no longer happens at once
 _PARTS = 3  # for each that comes down: nearly there, there, and there again
@@ -31,7 +31,7 @@ def cuts(scene: Scene) -> bool:
     gives = any(joint.dry_friction for joint in scene.joints.values()) or any(scene.limits())
     gives |= any(contact.static != contact.kinetic for contact in scene.contacts.values())
     carried = any(oblique(scene, joint) for joint in scene.joints.values())
-    return not (told or gives or carried or scene.pairs or lacking(scene))
+    return not (told or gives or carried or scene.pairs or any(scene.one_sided()))
 
 
 def lands(scene: Scene, start: Start) -> bool:

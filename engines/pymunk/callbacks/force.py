@@ -32,9 +32,11 @@ from ....cases.scene.forces.force import (
     TorsionDamper,
     Viscous,
 )
-from ...engine import Realised
+from ...engine import Realised, Start
 from ...signal import acting, in_time
 from ..model.chipmunk_state import State, pushing, reading, turning
+from ..model.damping import not_alike, rate, slowing
+from ..model.damping import numbers as damped_numbers
 from ..model.limit import pressed, pulled, rope_joint, rope_numbers, stop_numbers, stops_joint
 from ..model.number_text import written
 from ..model.script_signals import as_text
@@ -169,6 +171,13 @@ def _limited(limit: Limit) -> Limited:
     return found
 
 
+def damp(world: World, start: Start, realised: Realised) -> None:
+    """Lets the space slow its bodies, where that is what slows them, beside what a setting says."""
+    if realised == "native" and slowing(world.scene) and not not_alike(world.scene, start):
+        world.space.damping *= math.exp(-rate(world.scene))
+        world.slowed.update(force.name for force in slowing(world.scene))
+
+
 def lines(world: World, realised: Realised) -> None:
     """Adds the lines that pymunk realises itself, in the order of the case file."""
     for force in world.scene.forces.values():
@@ -202,7 +211,8 @@ def tells(world: World, step: float, *, midpoint: bool) -> list[Apply]:
     return [
         tell(world, force, step, drift)
         for force in world.scene.forces.values()
-        if force.name not in world.lines and (tell := ELEMENTS[type(force)].tell)
+        if force.name not in {*world.lines, *world.slowed}
+        if (tell := ELEMENTS[type(force)].tell)
     ]
 
 
@@ -213,6 +223,7 @@ def numbers(world: World) -> dict[str, float]:
         for limit in world.scene.limits()
         for key, number in _limited(limit).numbers(world.limits[limit.name].joint, limit).items()
     }
+    held |= damped_numbers(world.scene, world.space.damping) if world.slowed else {}
     return held | {
         f"{name}.{key}": number
         for name, line in world.lines.items()
@@ -339,8 +350,8 @@ ELEMENTS: dict[type[Force], Element] = {
         tell=lambda world, damper, step, drift: twisted(world, damper, step),
     ),
     Motor: Element(load=motor_load, tell=motor, script=_motor_script),
-    Drag: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
-    Viscous: Element(**BY_LAW, lacks="engine: pymunk has no friction by a power of the speed"),
+    Drag: Element(**BY_LAW),  # or the space's damping
+    Viscous: Element(**BY_LAW),
     Magnetic: Element(**BY_LAW, lacks="engine: pymunk has no force of a magnetic field"),
     Muscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
     LinearMuscle: Element(**BY_LAW, lacks="engine: pymunk has no muscle"),
@@ -352,8 +363,13 @@ ELEMENTS: dict[type[Force], Element] = {
 # Forces of a scene that pymunk has no element for.
 
 
-def lacking(scene: Scene) -> list[tuple[Force, str]]:
+def lacking(scene: Scene, start: Start) -> list[tuple[Force, str]]:
     """The forces that pymunk has no element for, and why: our laws tell it them."""
     found = ((force, ELEMENTS[type(force)].lacks) for force in scene.forces.values())
     one_sided = ((spring, NO_SIDE) for spring in scene.one_sided())
-    return [*((force, why) for force, why in found if why), *one_sided]
+    slowed: list[tuple[Force, str]] = []
+    if unlike := not_alike(scene, start):
+        first, why = unlike  # and with it all of them: the space has one damping
+        forces = sorted(slowing(scene), key=lambda force: force.name != first)
+        slowed = [(force, why) for force in forces]
+    return [*slowed, *((force, why) for force, why in found if why), *one_sided]

@@ -91,10 +91,13 @@ def midpoint_force(world: World, line: Line, step: float) -> Callable[[float], N
 def _along(pulls: Tension, dx: float, dy: float, vx: float, vy: float) -> Vector:
     """How the line pulls its first end towards its second [N]."""
     length = math.hypot(dx, dy)
-    if not length:
-        return 0.0, 0.0  # no direction to act in
-    size = pulls(length, (dx * vx + dy * vy) / length) / length
-    return size * dx, size * dy
+    if length:
+        size = pulls(length, (dx * vx + dy * vy) / length) / length
+        return size * dx, size * dy
+    if speed := math.hypot(vx, vy):  # the ends meet, and part along their velocity
+        size = pulls(0.0, speed) / speed
+        return size * vx, size * vy
+    return 0.0, 0.0  # no direction to act in
 
 
 def _midpoint(world: World, anchor: Anchor, step: float) -> Callable[[], Point]:

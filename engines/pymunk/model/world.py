@@ -37,6 +37,7 @@ class World:
     motors: those of driven joints. slots: the lines that pin joints hold. pins: those of edges, by
     the reaction: `blade.force`. pairs: what touches another body, and what of that it touches.
     inner: what forces with an inner state have had, at the start and in the middle of each step.
+    slowed: the forces that the space's damping is.
     share: of a step, which the last impulses are of; less than 1 where our driver has cut it.
     """
 
@@ -57,6 +58,7 @@ class World:
     pairs: dict[str, tuple[Circle, Circle | Segment]] = field(default_factory=dict)
     inner: dict[str, list[float]] = field(default_factory=dict)
     share: list[float] = field(default_factory=lambda: [1.0])
+    slowed: set[str] = field(default_factory=set)
     stride: Stride | None = None
 
     def body(self, anchor: Anchor) -> Body:

@@ -16,7 +16,7 @@ from pymunk.space import Space
 from ....cases.scene import GROUND, DryFriction, Joint, Scene, Vector
 from ...engine import Realised, Start
 from ...foot_contact import stride
-from ..callbacks.force import limits, lines
+from ..callbacks.force import damp, limits, lines
 from ..model.contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from ..model.edge import add_edges
 from ..model.pair import add_pairs
@@ -49,6 +49,7 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
         owner, _, attribute = name.partition(".")
         for part in {"space": [space], "constraint": joints, "limit": ends}.get(owner, ()):
             setattr(part, attribute, value)
+    damp(world, start, realised)
     return world
 
 

@@ -7,6 +7,7 @@ that they call.
 """
 
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -36,6 +37,7 @@ from ..kinematics.kinematics import Kinematics, Part, Point
 from .turning import Turn, turn_of
 
 SHORT = 1e-9  # of its own length: a motion that comes so close would not miss zero but by rounding
+MEETING = 16 * sys.float_info.epsilon  # of the ends' places: a few roundings of a sum of products
 NOISE = 1e-12  # of the speed at the start: what is left of one that falls to zero, or less
 
 Load = tuple[Part, Vec | None, Vec | None]
@@ -194,23 +196,51 @@ class Long:
 
 
 @dataclass(frozen=True)
+class Along:
+    """a/λ² of what is along a line, by λ²; where its ends meet, what `meeting` is.
+
+    So near they meet that no more than rounding of their places is between them: squares: a sum of
+    squares of these.
+    """
+
+    rounding: float
+
+    def __call__(self, squared: Any, squares: Any, a: Any, meeting: Any) -> Any:
+        return a / squared if squared.real > self.rounding**2 * squares.real else meeting
+
+
+@dataclass(frozen=True)
 class Damped(Lined):
-    """A viscous damper."""
+    """A viscous damper.
+
+    Where its ends meet they part, or have come, along Δ̇: there the line has its direction, λ̇ Δ/λ
+    is Δ̇, and so is nothing of what does not move.
+    """
 
     force: Damper
+
+    @property
+    def line(self) -> bool:
+        return False
 
     @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.47) d λ̇ along Δ on the first end, λ̇ = Δ·Δ̇/λ."""
-        u = self.gap(k) / self.directed(k)
-        return pulled(k, *self.ends(k), u * (self.force.damping * (u @ self.gap_dot(k))))
+        d, rate = self.gap(k), self.gap_dot(k)
+        along = [self._along(k, (d @ rate) * x, v) for x, v in zip(d, rate, strict=True)]
+        return pulled(k, *self.ends(k), Vec(along) * self.force.damping)
 
     @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) ½ d λ̇²."""
+        d, rate = self.gap(k), self.gap_dot(k)
+        return 0.5 * self.force.damping * self._along(k, (d @ rate) ** 2, rate @ rate)
+
+    def _along(self, k: Kinematics, a: Any, meeting: Any) -> Any:
+        a_end, b_end = self.ends(k)
+        places = (a_end.r, b_end.r, a_end.part.r, b_end.part.r)
         d = self.gap(k)
-        rate = d @ self.gap_dot(k)
-        return 0.5 * self.force.damping * rate * rate / (d @ d)
+        return k.tape.call(Along(MEETING), d @ d, sum((r @ r for r in places), 0.0), a, meeting)
 
 
 @dataclass(frozen=True)

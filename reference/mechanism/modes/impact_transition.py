@@ -17,6 +17,7 @@ from .element import Element, State
 from .impact import NoImpact, Several, impact
 from .mode_selection import After, Options, Undetermined, closed, settled, staying
 from .modes import Modes, rate
+from .one_instant import undivided
 
 ANY = 1e9  # coefficient that lets nothing slip; an infinite one times a zero impulse would be nan
 STILL = 1e-12  # of the largest velocity: what a projection or an assembly leaves of a zero rate
@@ -46,7 +47,7 @@ def landed(
     touching, met = _meetings(modes, mode, i, t, q, v, rests=rests, size=size)
     still = modes.still(t, q, v, part=STILL)
     if strikes := any(m.strikes and m.normal.rate(v) < -still for m in met):
-        v, states = _struck(modes, mode, i, met, t, q, v, size)
+        v, states = _struck(modes, mode, i, touching, met, t, q, v, size, rests=rests)
         flies = math.inf if rests else still  # what the last blow throws up, falls back at once
         found = [_after(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
     else:  # nothing approaches: it rests but for rounding, or rises from a gap that rounding made
@@ -63,12 +64,31 @@ def landed(
 
 
 def _struck(
-    modes: Modes, mode: str, i: int, met: list[Meeting], t: float, q: Array, v: Array, size: float
+    modes: Modes,
+    mode: str,
+    i: int,
+    touching: list[int],
+    met: list[Meeting],
+    t: float,
+    q: Array,
+    v: Array,
+    size: float,
+    *,
+    rests: bool,
 ) -> tuple[Array, tuple[State, ...]]:
-    """Returns q̇⁺ (n,), and the state of each of the contacts in the blow. Raises Undetermined."""
+    """Returns q̇⁺ (n,), and the state of each of the contacts in the blow. Raises Undetermined.
+
+    What it strikes at the same instant joins those that touch.
+    """
     base = modes.base
     held = [Condition(f, g) for f, g in zip(base.f_a(t, q), base.g(t, q), strict=True)]
-    check_alone(modes, mode, i, met, held, t, q, v, size)
+    if passes := passed_on(modes, mode, i, met, held, t, q, v, size):
+        _join(modes, mode, i, touching, met, t, q, v, size, rests=rests)
+        after = undivided(modes.M, held, met, v, plastic=rests)
+        if after is None or not all(m.element.slips for m in met):
+            raise passes
+        open_all: tuple[State, ...] = tuple("open" for _ in met)
+        return after, open_all
     try:
         taken, states = impact(modes.M, held, met, v)
     except Several as error:
@@ -162,14 +182,15 @@ def _clear(slip: float, still: float) -> float:
 # Impacts at one instant: rigid bodies do not say how a blow is divided between them.
 #
 # Three balls that touch: Newton's law of each pair is met by many motions, and which of them real
-# balls take is decided by how they give way. A gap, however small, puts one after the other.
+# balls take is decided by how they give way. A gap, however small, puts one after the other. Where
+# all ways lead to one velocity it does not matter (`one_instant`).
 
 
 class OneInstant(Undetermined):
     """A blow that passes through several contacts at once."""
 
 
-def check_alone(
+def passed_on(
     modes: Modes,
     mode: str,
     i: int,
@@ -179,21 +200,16 @@ def check_alone(
     q: Array,
     v: Array,
     size: float,
-) -> None:
-    """Raises OneInstant if what strikes in contact i passes its blow on in the same instant."""
+) -> OneInstant | None:
+    """Why what strikes in contact i does not strike alone: it passes its blow on; or None."""
     first, small = modes.elements[i], ROUNDING * float(np.max(np.abs(v)))
-    others = [
-        e
-        for e, state in zip(modes.elements, modes.states[mode], strict=True)
-        if _shares(first, e, state)
-        if state != "open" or _touches(e, t, q, v, size)
-    ]
+    others = [modes.elements[k] for k in _sharing(modes, mode, i, t, q, v, size)]
     if not others:
-        return
+        return None
     try:
         alone, _ = impact(modes.M, held, [m for m in met if m.strikes], v)
     except NoImpact:
-        return  # with all that touch it is tried again, and told
+        return None  # with all that touch it is tried again, and told
     for e in others:
         assert e.normal is not None
         before, now = rate(e.normal, t, q, v), rate(e.normal, t, q, alone.v)
@@ -202,10 +218,51 @@ def check_alone(
             if before >= -small:
                 both = f"{first.name} strikes at t = {t:.4g} s what {e.name} touches and passes on"
             what = (
-                f"{both}: rigid bodies do not say how the blow is divided; leave a gap, so that "
-                "one strikes after the other"
+                f"{both}: rigid bodies do not say how the blow is divided, and it differs by the "
+                "order; leave a gap, so that one strikes after the other"
             )
-            raise OneInstant(first.name, what, t)
+            return OneInstant(first.name, what, t)
+    return None
+
+
+def _sharing(
+    modes: Modes, mode: str, i: int, t: float, q: Array, v: Array, size: float
+) -> list[int]:
+    """The numbers of the others that touch and may take a part of the blow of contact i."""
+    pairs = zip(modes.elements, modes.states[mode], strict=True)
+    return [
+        k
+        for k, (e, state) in enumerate(pairs)
+        if _shares(modes.elements[i], e, state)
+        if state != "open" or _touches(e, t, q, v, size)
+    ]
+
+
+def _join(
+    modes: Modes,
+    mode: str,
+    i: int,
+    touching: list[int],
+    met: list[Meeting],
+    t: float,
+    q: Array,
+    v: Array,
+    size: float,
+    *,
+    rests: bool,
+) -> None:
+    """Adds what shares the blow to those that touch, as what strikes or may be struck by it."""
+    for k in _sharing(modes, mode, i, t, q, v, size):
+        e = modes.elements[k]
+        normal, tangent = _condition(e.normal, t, q, v), _condition(e.slip, t, q, v)
+        back = 0.0 if rests else e.restitution * min(0.0, normal.rate(v))
+        after = normal.g - back
+        meeting = Meeting(e, normal, tangent, after, True)
+        if k in touching:
+            met[touching.index(k)] = meeting
+        else:
+            touching.append(k)
+            met.append(meeting)
 
 
 def _shares(first: Element, e: Element, state: State) -> bool:

@@ -10,6 +10,7 @@ from given.scenes import typed
 from textmech.cases.mistake import CaseError, Mistake
 from textmech.reference.start import positions
 from textmech.reference.start.assembly import assemble
+from textmech.reference.start.spatial_closure import SpatialClosure
 
 BODY = (
     "{rigid: {mass: 1.0, inertia: [0.02, 0.03, 0.025, 0, 0, 0]}, "
@@ -218,3 +219,81 @@ def test_a_mechanism_without_a_rate_rests_beside_one_that_turns(tmp_path: Path) 
     half = typed(tmp_path, TWO, tail=start.replace("RATE", ", vx: 1") + tail)
     _, v = assemble(half)
     assert v[-6:].tolist() == [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+
+
+AXLE = """\
+scene:
+  space: 3
+  bodies:
+    cart:
+      rigid: {mass: 2, inertia: [0.02, 0.03, 0.04, 0, 0, 0]}
+      points: {l: [0, 0.2, 0], r: [0, -0.2, 0], c: [-0.3, 0, -0.05]}
+    left: {disk: {mass: 0.3, radius: 0.1, axle: [0, 1, 0]}}
+    right: {disk: {mass: 0.3, radius: 0.1, axle: [0, 1, 0]}}
+    caster: {sphere: {mass: 0.2, radius: 0.05}}
+  joints:
+    l: {hinge: [cart.l, left.center], axis: [0, 1, 0]}
+    r: {hinge: [cart.r, right.center], axis: [0, 1, 0]}
+    c: {ball: [cart.c, caster.center]}
+  contacts:
+    fl: {between: [left, ground.floor], friction: 1, ideal: rolling}
+    fr: {between: [right, ground.floor], friction: 1, ideal: rolling}
+    fb: {between: [caster, ground.floor], friction: 1, ideal: rolling}
+"""
+ONE_WHEEL = "".join(row for row in AXLE.splitlines(True) if "fr:" not in row)
+
+
+def all_mistakes(tmp_path: Path, text: str) -> list[str]:
+    with pytest.raises(CaseError) as error:
+        assemble(typed(tmp_path, f"{text}allow: {{cart.x: 1.0e-2}}\n"))
+    return [mistake.what for mistake in error.value.mistakes]
+
+
+@pytest.mark.parametrize(
+    ("start", "lacking"),
+    [
+        ("{cart: {x: 0, y: 0, vx: 1}}", "3 more needed: l.angle, r.angle, cart.attitude"),
+        (
+            "{cart: {x: 0, y: 0}, l: {angle: 0}, r: {angle: 0}}",
+            "1 more needed: cart.attitude",
+        ),
+    ],
+)
+def test_two_wheels_on_an_axle_are_told_their_reason_first_and_all_that_lacks(
+    tmp_path: Path, start: str, lacking: str
+) -> None:
+    """Neither is held by fewer words once more is given, so it is not asked for to no end."""
+    reason, more = all_mistakes(tmp_path, f"{AXLE}initial: {start}\n")
+    assert reason.startswith("the constraints are not independent")
+    assert more.startswith(f"{lacking} ")
+
+
+def test_what_is_named_is_enough(tmp_path: Path) -> None:
+    """Of one wheel nothing is held twice: each name that is given takes its part of the number."""
+    rows = [
+        ("{cart: {x: 0, y: 0}}", "4 more needed: l.angle, r.angle, cart.attitude are"),
+        ("{cart: {x: 0, y: 0}, l: {angle: 0}, r: {angle: 0}}", "2 more needed: cart.attitude is"),
+    ]
+    for start, expected in rows:
+        (what,) = all_mistakes(tmp_path, f"{ONE_WHEEL}initial: {start}\n")
+        assert what.startswith(expected)
+    upright = (
+        "{cart: {x: 0, y: 0, attitude: {axis: [0, 0, 1], angle: 0}}, l: {angle: 0}, r: {angle: 0}}"
+    )
+    assemble(typed(tmp_path, f"{ONE_WHEEL}initial: {upright}\nallow: {{cart.x: 1.0e-2}}\n"))
+
+
+@pytest.mark.mutant("of an open start in space only the joints' coordinates are named")
+def test_a_body_that_a_joint_holds_may_be_what_lacks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(SpatialClosure, "_open_places", lambda closure, loose, small: {})
+    (what,) = all_mistakes(tmp_path, f"{ONE_WHEEL}initial: {{cart: {{x: 0, y: 0}}}}\n")
+    assert "cart.attitude" not in what
+
+
+@pytest.mark.mutant("what is held twice is told once all is given")
+def test_a_reason_that_comes_last_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(positions, "_repeated", lambda closure, q, loose: None)
+    (what,) = all_mistakes(tmp_path, f"{AXLE}initial: {{cart: {{x: 0, y: 0}}}}\n")
+    assert "not independent" not in what
