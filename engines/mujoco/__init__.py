@@ -14,6 +14,7 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options
+from .adapter import plain_shapes
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
 from .adapter.inverse_dynamics import answered
 from .adapter.plans import plan, ways
@@ -67,12 +68,18 @@ class MuJoCo:
     def _settles(self) -> bool:
         return self._tuned or bool(self.options.get("settled"))
 
+    @property
+    def _shape(self) -> str:
+        """Of a user's model, as the option `shapes` says; empty: ours."""
+        return self.options.get("shapes", "")
+
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
         scene, start = with_rods(scene, start)
         refusal = (
             unbuildable(scene)
             or unfit(self.options, list(recipes(scene)), worth(scene))
+            or (self._shape and plain_shapes.refused(scene, self._shape, self.options))
             or uncompilable(scene, start, self._plan(scene, start))
         )
         if refusal:
@@ -93,7 +100,8 @@ class MuJoCo:
         else:
             why = {"because": settings.GUIDE} if self._recommended else {}
             numbers = partial(settings.with_own, self.options, scene, start, **why)
-        return plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+        found = plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+        return plain_shapes.planned(found, scene, start, self._shape) if self._shape else found
 
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
         """See `Tunable`."""
@@ -130,6 +138,12 @@ class MuJoCo:
         return snippet(
             with_own(options), with_own({}), step, notes, frictions=frictions, points=points
         )
+
+    def _plain(self, scene: Scene, start: Start, step: float, plan: Plan) -> str:
+        """The model with the shapes that a user has, behind what is pasted of the plan's numbers."""
+        shipped = settings.with_own({}, scene, start, step)
+        pasted = snippet(plan.choices(step), shipped, step, [], frictions={})
+        return plain_shapes.plain_mjcf(scene, start, self._shape, pasted)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
@@ -188,6 +202,10 @@ class MuJoCo:
         record: bool = False,
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
+        if self._shape:
+            text = self._plain(scene, start, step, plan)
+            wanted = tuple(name for name in reactions if name not in plan.withheld)
+            return plain_shapes.run(scene, start, times, text, wanted, record=record)
         built, begun = with_rods(scene, start)
         with lent(built, begun, step, plan, settles=self._settles) as (model, data):
             found = simulate(

@@ -1,0 +1,183 @@
+"""A scene of one body with the shape that a user has: a geom on a free joint, advice pasted in.
+
+Nothing of our own model is in it: no point of 1e-12 m, no three freedoms, no settled start, and no
+pair but those that the pasted lines ask for.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+from xml.etree import ElementTree as ET
+
+import mujoco
+import numpy as np
+
+from ....cases.scene import GROUND, Body, Scene
+from ....cases.trajectory import ANGLE, OMEGA, Array, Trajectory
+from ...engine import Plan, Start
+from ...plain_shapes import CYLINDER, PLAIN, unsuited, with_box, without_box
+from ..callbacks.signal import listening
+from ..model.drive import controls
+from ..model.force import BY_ITSELF, begun_with, lacking, write
+from ..model.number_text import EACH, lifted, written
+from ..model.planes import add_planes, add_sensors, dimensions, grounded, touching
+from ..model.tree import called
+from ..read.reaction import felt_force
+from ..read.record import all_steps, counted, whole
+from .run import check
+
+ONE_SUM = "adapter: shapes: what one plane exerts on a geom is read as one force"
+
+
+def refused(scene: Scene, shape: str, options: Mapping[str, object]) -> str | None:
+    """Why the scene is not built with such shapes, as a `Refusal` says it; None: it is."""
+    if options.get("settled") or EACH in options:
+        return "adapter: shapes: a settled start, or numbers of one contact, cannot be pasted"
+    if any(law.law not in BY_ITSELF for law in scene.laws()) or lacking(scene):
+        return "adapter: shapes: a force takes a callback"
+    if why := unsuited(scene):
+        return why
+    (body,) = scene.bodies.values()
+    round_one = body.radius is not None
+    return None if round_one or shape == PLAIN else f"adapter: shapes: {body.name} is not round"
+
+
+def words(scene: Scene, start: Start, shape: str) -> str:
+    """`block is a box geom of 0.2 × 0.1 × 0.2 m with a free joint`."""
+    (body,) = with_box(scene, start)[0].bodies.values()
+    geom = _geom(body, shape)
+    sizes = [2 * float(size) for size in geom["size"].split()]
+    across = "" if geom["type"] == "box" else " across"
+    told = f"{' × '.join(f'{size:g}' for size in sizes)} m{across}"
+    return f"{body.name} is a {geom['type']} geom, {told}, with a free joint"
+
+
+def planned(plan: Plan, scene: Scene, start: Start, shape: str) -> Plan:
+    """The plan with what is built, and what is not read."""
+    planes = [contact.on for contact in scene.contacts.values()]
+    together = {
+        f"{contact.name}.{field}": ONE_SUM
+        for contact in scene.contacts.values()
+        for field in ("normal", "tangent")
+        if planes.count(contact.on) > 1
+    }
+    said = partial(_protocol, words(scene, start, shape))
+    return replace(plan, protocol=said, withheld={**plan.withheld, **together})
+
+
+def _protocol(what: str, step: float) -> str:
+    return what
+
+
+def plain_mjcf(scene: Scene, start: Start, shape: str, pasted: str) -> str:
+    """The model as a user writes it, with the start as a keyframe, behind the pasted lines."""
+    scene, start = with_box(scene, start)
+    (body,) = scene.bodies.values()
+    root = ET.fromstring(f"<mujoco>{pasted}</mujoco>")
+    option = ET.SubElement(root, "option", gravity=written(*lifted(scene.gravity)))
+    ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
+    world = ET.SubElement(root, "worldbody")
+    add_planes(world, scene)
+    contacts = {contact.on: contact for contact in touching(scene).values()}
+    for plane, contact in zip(world.findall("geom"), contacts.values(), strict=True):
+        del plane.attrib["contype"], plane.attrib["conaffinity"]
+        plane.attrib.update(_rubs(contact.friction))
+    ET.SubElement(world, "site", name=GROUND)
+    for name, point in scene.points.items():
+        ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=written(*lifted(point.at)))
+    element = ET.SubElement(world, "body", name=called(body.name))
+    ET.SubElement(element, "freejoint", name=body.name)
+    for name, at in body.points.items():
+        ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*lifted(at)))
+    # Of two geoms that touch the larger friction counts: that of the plane.
+    least = min(contact.friction for contact in contacts.values())
+    geom = _geom(body, shape) | {"name": body.name, "mass": written(body.mass)} | _rubs(least)
+    ET.SubElement(element, "geom", geom)
+    if body.radius is not None and (shape == PLAIN or body.shape != "disk"):
+        j = written(body.moment, body.moment, body.moment)
+        ET.SubElement(element, "inertial", pos="0 0 0", mass=written(body.mass), diaginertia=j)
+    # What a geom has not: pasted lines with it ask for pairs.
+    if any("solreffriction" in pair.attrib for pair in root.iter("pair")):
+        pairs = ET.SubElement(root, "contact")
+        for name, contact in contacts.items():
+            ET.SubElement(
+                pairs, "pair", geom1=grounded(name), geom2=body.name,
+                condim=dimensions(contact.friction),
+                friction=written(contact.friction, contact.friction),
+            )  # fmt: skip
+    write(root, scene)
+    sensors = ET.SubElement(root, "sensor")
+    add_sensors(sensors, scene)
+    for sensor in sensors:
+        sensor.set("geom2", body.name)
+    _keyframe(root, scene, start)
+    ET.indent(root)
+    return ET.tostring(root, encoding="unicode") + "\n"
+
+
+def _rubs(friction: float) -> dict[str, str]:
+    """As a geom has it; with condim 3 the other two numbers, MuJoCo's defaults, do nothing."""
+    return {"friction": written(friction, 0.005, 0.0001), "condim": dimensions(friction)}
+
+
+def _geom(body: Body, shape: str) -> dict[str, str]:
+    if body.radius is not None and shape == CYLINDER:
+        return {"type": "cylinder", "size": written(body.radius, body.radius / 2)}
+    if body.radius is not None:
+        return {"type": "sphere", "size": written(body.radius)}
+    assert body.size is not None  # else it is unsuited
+    width, height = body.size
+    return {"type": "box", "size": written(width / 2, height / 2, width / 2)}
+
+
+def _keyframe(root: ET.Element, scene: Scene, start: Start) -> None:
+    ((x, y, angle, vx, vy, omega),) = start.values()
+    key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
+    key.set("qpos", written(x, y, 0.0, math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)))
+    key.set("qvel", written(vx, vy, 0.0, 0.0, 0.0, omega))
+    if activations := begun_with(scene):
+        key.set("act", written(*activations))
+    if laws := controls(scene):
+        key.set("ctrl", written(*(1 for _ in laws)))
+
+
+def run(
+    scene: Scene,
+    start: Start,
+    times: Array,
+    text: str,
+    reactions: tuple[str, ...],
+    *,
+    record: bool,
+) -> Trajectory:
+    """The motion of such a model at the times; record: every step too. Raises Diverged."""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    step = float(model.opt.timestep)
+    counts, grid = counted(times, step), all_steps(times, step)
+    with listening() as warnings:
+        every = whole(model, data, len(grid))
+        check(warnings, grid, every)
+    assert every.felt is not None  # `whole` keeps it
+    felt = {name: felt_force(scene, model, name, every.felt) for name in reactions}
+    states = dict(_states(with_box(scene, start)[1], every.qpos, every.qvel))
+    phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends
+    motion = Trajectory(
+        times,
+        {name: rows[counts] for name, rows in states.items()},
+        {name: rows[counts] for name, rows in felt.items()},
+        record=Trajectory(grid, states, felt, phase=phase) if record else None,
+    )
+    return without_box(scene, motion)
+
+
+def _states(start: Start, qpos: Array, qvel: Array) -> Iterator[tuple[str, Array]]:
+    """(N, 6) of the body: its angle counts whole turns, of less than a half from step to step."""
+    ((name, state),) = start.items()
+    rows = np.column_stack([qpos[:, :3], qvel[:, :3]])
+    turned = np.unwrap(2 * np.arctan2(qpos[:, 6], qpos[:, 3]))
+    rows[:, ANGLE] = turned + math.tau * np.round((state[ANGLE] - turned[0]) / math.tau)
+    rows[:, OMEGA] = qvel[:, 5]
+    yield name, rows

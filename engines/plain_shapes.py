@@ -1,0 +1,76 @@
+"""Scenes with the shapes that users have, of which advice is measured: see `PlainShapes`.
+
+A body of a plane that planes alone touch is a box or a ball there, free to move; a particle is a
+box, for nobody has a point.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from ..cases.scene import CENTER, Anchor, Body, Scene
+from ..cases.scene.frame import PLANE
+from ..cases.scene.shape import CORNERS, block
+from ..cases.trajectory import ANGLE, OMEGA, Trajectory
+from .engine import Start
+
+PLAIN, CYLINDER = SHAPES = ("plain", "cylinder")
+"""Values of the option `shapes`: what is round is a sphere with the disk's inertia, or the disk."""
+WIDTH, HEIGHT = 0.2, 0.1  # m, of the box that stands for a particle: so flat that it does not tip
+FOOT = "foot"  # the middle of its lower face, where the particle is
+
+
+def unsuited(scene: Scene) -> str | None:
+    """Why no plain shapes stand for the scene, as a `Refusal` says it; None: they do."""
+    beside = (scene.joints, scene.constraints, scene.pairs, scene.drives)
+    if scene.frame is not PLANE or len(scene.bodies) != 1 or any(beside) or any(scene.limits()):
+        return "adapter: shapes: only a body of the plane that nothing but planes holds has them"
+    if any(point.driven for point in scene.points.values()):
+        return "adapter: shapes: a point is driven"
+    (body,), contacts = scene.bodies.values(), scene.contacts.values()
+    if not contacts or not all(_touches(body, contact.at.point) for contact in contacts):
+        return f"adapter: shapes: {body.name} does not touch with its rim, its corners or as a point"
+    if not body.turns and len(contacts) > 1:
+        return f"adapter: shapes: {body.name} is a point on two planes"
+    return None
+
+
+def _touches(body: Body, point: str) -> bool:
+    if body.radius is not None or not body.turns:
+        return point == CENTER
+    return body.size is not None and point in CORNERS
+
+
+def with_box(scene: Scene, start: Start) -> tuple[Scene, Start]:
+    """The scene with a box for its particle, which lies flat on the plane; others as they are."""
+    (body,) = scene.bodies.values()
+    if body.turns:
+        return scene, start
+    foot = {FOOT: (0.0, -HEIGHT / 2)}
+    box = block(name=body.name, mass=body.mass, width=WIDTH, height=HEIGHT, points=foot)
+    (contact,), (x, y, _, vx, vy, _) = scene.contacts.values(), start[body.name]
+    (ux, uy), (nx, ny) = contact.plane.along, contact.plane.normal
+    place = x + HEIGHT / 2 * nx, y + HEIGHT / 2 * ny
+    contacts = {contact.name: replace(contact, at=Anchor(body.name, FOOT))}
+    found = replace(scene, bodies={body.name: box}, contacts=contacts)
+    return found, {body.name: (*place, math.atan2(uy, ux), vx, vy, 0.0)}
+
+
+def without_box(scene: Scene, motion: Trajectory) -> Trajectory:
+    """The motion of `with_box` as the particle's: half a box below its centre."""
+    (body,) = scene.bodies.values()
+    if body.turns:
+        return motion
+    (contact,) = scene.contacts.values()
+    away = HEIGHT / 2 * np.array(contact.plane.normal)
+
+    def lowered(states: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        rows = states[body.name].copy()
+        rows[:, :2] -= away
+        rows[:, [ANGLE, OMEGA]] = 0.0
+        return {body.name: rows}
+
+    record = motion.record and replace(motion.record, states=lowered(motion.record.states))
+    return replace(motion, states=lowered(motion.states), record=record)
