@@ -12,7 +12,7 @@ import numpy as np
 from ..cases.scene import Scene
 from ..cases.scene.motion import Motion
 from ..cases.trajectory import Array, Trajectory
-from .knobs import Knob, Options
+from .knobs import Knob, Options, Value
 
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""
@@ -211,6 +211,27 @@ class Tunable(Protocol):
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """The options at the step [s] in the engine's own language, ready to paste."""
+        ...
+
+
+@runtime_checkable
+class Plain(Protocol):
+    """An optional extension of `Tunable`: scenes with the shapes that a user has, not ours.
+
+    A recipe for contacts that holds for the points and planes of an adapter may not hold for a box:
+    advice is searched on these shapes, started as a user starts them.
+    """
+
+    def shapes(self, scene: Scene, start: Start) -> Sequence[Value]:
+        """What stands for the scene in a user's model, and the own options that build it.
+
+        Recipes are searched on the first; on the others they are measured too. None where nothing
+        touches, or where the adapter builds its own model only.
+        """
+        ...
+
+    def own_contacts(self, scene: Scene) -> str:
+        """How contacts are built without, where that is not as users do; empty: nothing touches."""
         ...
 
 

@@ -13,7 +13,8 @@ from ...cases.scene.frame import PLANE
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
-from ..knobs import Knob, Options
+from ..knobs import Knob, Options, Value
+from ..plain_shapes import SHAPES
 from .adapter import plain_shapes
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
 from .adapter.inverse_dynamics import answered
@@ -119,6 +120,18 @@ class MuJoCo:
     def cost(self, scene: Scene, start: Start) -> Cost:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
         return cost
+
+    def shapes(self, scene: Scene, start: Start) -> list[Value]:
+        """See `Plain`: a geom with a free joint."""
+        return [
+            Value(plain_shapes.words(scene, start, shape), {"shapes": shape})
+            for shape in SHAPES
+            if not plain_shapes.refused(scene, shape, {})
+        ]
+
+    def own_contacts(self, scene: Scene) -> str:
+        """See `Plain`."""
+        return plain_shapes.OURS if met(scene) else ""
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Elements of an MJCF file in which geoms touch, as users write them."""

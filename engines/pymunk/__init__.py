@@ -11,10 +11,12 @@ from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
-from ..knobs import Knob, Options
+from ..knobs import Knob, Options, Value
+from ..plain_shapes import PLAIN, with_box, without_box
 from .adapter import plans
 from .adapter.claims import answered
 from .adapter.plans import numbers_by_name
+from .adapter.plain_shapes import OURS, planned, refused, words
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
 from .callbacks.cut import cuts
@@ -58,7 +60,8 @@ class Pymunk:
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; if tuned, dampers and dry friction also by their laws, edges by a driver."""
-        refusal = unbuildable(scene)
+        plain = "shapes" in self.options
+        refusal = unbuildable(scene) or (refused(scene, self.options) if plain else None)
         if refusal:
             return [Refusal("native", refusal)]
         without = [Refusal("native", why) for why in not_native(scene)]
@@ -67,10 +70,8 @@ class Pymunk:
         ways = plans.ways(scene, start) if self._tuned else ("native",)
         numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
         shipped = self.setting == "shipped"
-        return [
-            *without,
-            *(plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways),
-        ]
+        found = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
+        return [*without, *(planned(one, scene, start) if plain else one for one in found)]
 
     def pace(self, scene: Scene) -> float:
         """See `Paced`; measured on chains: sweeps grow by the square of the joints."""
@@ -92,6 +93,14 @@ class Pymunk:
     def cost(self, scene: Scene, start: Start) -> Cost:
         """See `Tunable`."""
         return cost(scene, start)
+
+    def shapes(self, scene: Scene, start: Start) -> list[Value]:
+        """See `Plain`: a `Poly` or a `Circle`."""
+        return [] if refused(scene, {}) else [Value(words(scene, start), {"shapes": PLAIN})]
+
+    def own_contacts(self, scene: Scene) -> str:
+        """See `Plain`."""
+        return OURS if scene.pressed else ""
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Lines of Python for a script with a `space`, as users write it."""
@@ -138,11 +147,14 @@ class Pymunk:
         """The motion, by `space.step(h)` between samples; once more where the floor was short."""
         numbers = numbers_by_name(plan.choices(step))
         wanted = tuple(name for name in reactions if name not in plan.withheld)
-        again = partial(_run, scene, start, times, step, plan.realised, wanted, record)
+        plain = "shapes" in self.options
+        built, begun = with_box(scene, start) if plain else (scene, start)
+        again = partial(_run, built, begun, times, step, plan.realised, wanted, record)
         try:
-            return again(numbers)
+            motion = again(numbers)
         except Left:
-            return again(numbers | {"ground.reach": FAR})
+            motion = again(numbers | {"ground.reach": FAR})
+        return without_box(scene, motion) if plain else motion
 
 
 def _run(

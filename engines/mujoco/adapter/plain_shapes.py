@@ -29,6 +29,8 @@ from .run import check
 
 ONE_SUM = "adapter: shapes: what one plane exerts on a geom is read as one force"
 
+OURS = "a point that touches is a sphere of 1e-12 m, each contact a <pair>, no body leaves its plane"
+
 
 def refused(scene: Scene, shape: str, options: Mapping[str, object]) -> str | None:
     """Why the scene is not built with such shapes, as a `Refusal` says it; None: it is."""

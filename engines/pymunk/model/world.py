@@ -37,6 +37,7 @@ class World:
     motors: those of driven joints. slots: the lines that pin joints hold. pins: those of edges, by
     the reaction: `blade.force`. pairs: what touches another body, and what of that it touches.
     inner: what forces with an inner state have had, at the start and in the middle of each step.
+    plain: whether shapes are those that a user has.
     share: of a step, which the last impulses are of; less than 1 where our driver has cut it.
     """
 
@@ -58,6 +59,7 @@ class World:
     inner: dict[str, list[float]] = field(default_factory=dict)
     share: list[float] = field(default_factory=lambda: [1.0])
     stride: Stride | None = None
+    plain: bool = False
 
     def body(self, anchor: Anchor) -> Body:
         if anchor.body != GROUND:

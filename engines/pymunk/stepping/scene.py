@@ -20,6 +20,7 @@ from ..callbacks.force import limits, lines
 from ..model.contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from ..model.edge import add_edges
 from ..model.pair import add_pairs
+from ..model.plain_shapes import SHAPES, add_plain_shapes
 from ..model.slot import holds_angle, line, oblique, pinned, turns
 from ..model.world import World
 
@@ -35,9 +36,10 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     space = Space()
     space.gravity = scene.gravity
     walks = stride(scene, [contact.name for contact in closed(scene, start)])
-    world = World(scene, space, numbers.get("ground.reach", NEAR), stride=walks)
+    plain = SHAPES in numbers
+    world = World(scene, space, numbers.get("ground.reach", NEAR), stride=walks, plain=plain)
     _bodies(world, start)
-    _contacts(world)
+    (add_plain_shapes if plain else _contacts)(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
     limits(world)

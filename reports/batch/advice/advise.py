@@ -26,6 +26,7 @@ from .advice_rows import Advised, Requirement
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
 from .parameter_draws import tried_in_draws
+from .real_shapes import measured_beside, shapes
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
 ZERO = 1e-9  # of `allow`: what is no larger in all the motion is nothing but rounding
@@ -64,7 +65,19 @@ def _searched(ready: Sequence[Advised], asked: Requirement, results: Results) ->
         found |= left
         worst = elsewhere({key: _asked_elsewhere(one) for key, one in left.items()}, results)
         left = {key: one for key, one in left.items() if _rejected(one, worst[key])}
-    return [replace(one, recipes=None) if key in left else one for key, one in found.items()]
+    found |= {key: replace(one, recipes=None) for key, one in left.items()}
+    return _on_other_shapes(found, results)
+
+
+def _on_other_shapes(found: Mapping[str, Advised], results: Results) -> list[Advised]:
+    """Each with what its recipes do on the other shapes that a user may have."""
+    asked = {
+        key: (one.pair, one.shapes, one.pasted, one.kitchen.bar.scale)
+        for key, one in found.items()
+        if one.kitchen is not None
+    }
+    beside = measured_beside(asked, results)
+    return [replace(one, beside=beside.get(key, {})) for key, one in found.items()]
 
 
 def _asked_elsewhere(one: Advised) -> tuple[Pair, list[Candidate], Mapping[str, float]]:
@@ -149,7 +162,9 @@ def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Adv
     def cost(candidate: Candidate) -> float:
         return dear(candidate.options, candidate.step)
 
-    return Advised(pair, asked, way, Kitchen(menu, bar, cost), None)
+    users = shapes(engine, case, start)
+    pair = replace(pair, shapes=users[0].options if users else {})
+    return Advised(pair, asked, way, Kitchen(menu, bar, cost), None, shapes=users)
 
 
 def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:

@@ -74,7 +74,8 @@ def _ask(search: Search, wanted: Iterable[Candidate], asked: _Round, results: Re
     pair = search.pair
     for candidate in wanted:
         if candidate not in search.known:
-            key = results.keys.tried(pair.case, pair.engine, candidate.text, candidate.step)
+            text = candidate.on(pair.shapes).text
+            key = results.keys.tried(pair.case, pair.engine, text, candidate.step)
             asked.runs[key] = Run(pair, candidate)
             asked.wanted.append((search.known, candidate, key))
 
