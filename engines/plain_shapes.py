@@ -31,7 +31,9 @@ def unsuited(scene: Scene) -> str | None:
         return "adapter: shapes: a point is driven"
     (body,), contacts = scene.bodies.values(), scene.contacts.values()
     if not contacts or not all(_touches(body, contact.at.point) for contact in contacts):
-        return f"adapter: shapes: {body.name} does not touch with its rim, its corners or as a point"
+        return (
+            f"adapter: shapes: {body.name} does not touch with its rim, its corners or as a point"
+        )
     if not body.turns and len(contacts) > 1:
         return f"adapter: shapes: {body.name} is a point on two planes"
     return None
@@ -55,7 +57,13 @@ def with_box(scene: Scene, start: Start) -> tuple[Scene, Start]:
     place = x + HEIGHT / 2 * nx, y + HEIGHT / 2 * ny
     contacts = {contact.name: replace(contact, at=Anchor(body.name, FOOT))}
     found = replace(scene, bodies={body.name: box}, contacts=contacts)
-    return found, {body.name: (*place, math.atan2(uy, ux), vx, vy, 0.0)}
+    return found, {body.name: (*place, math.atan2(uy, ux) + 0.0, vx, vy, 0.0)}
+
+
+def known_of(scene: Scene, found: Mapping[str, float]) -> dict[str, float]:
+    """What is measured of `with_box`, without the moment of inertia that a particle has not."""
+    points = [f"{name}.inertia" for name, body in scene.bodies.items() if not body.turns]
+    return {name: number for name, number in found.items() if name not in points}
 
 
 def without_box(scene: Scene, motion: Trajectory) -> Trajectory:

@@ -14,7 +14,7 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options, Value
-from ..plain_shapes import SHAPES
+from ..plain_shapes import SHAPES, with_box
 from .adapter import plain_shapes
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
 from .adapter.inverse_dynamics import answered
@@ -24,6 +24,7 @@ from .adapter.run import simulate
 from .model.contact import closed, recipes, worth
 from .model.drive import controls
 from .model.force import BY_ITSELF
+from .model.number_text import attributes, of_one
 from .model.planes import met
 from .model.rods import of_scene, with_rods
 from .model.scene import mjcf
@@ -106,7 +107,7 @@ class MuJoCo:
 
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
         """See `Tunable`."""
-        scene, start = with_rods(scene, start)
+        scene, start = self._built(scene, start)
         bundles = {word: recipes(scene)[word](scene) for word in worth(scene)}
         best, lies = settings.best(scene, start), closed(scene, start)
         rubs = any(contact.friction for contact in met(scene))
@@ -114,8 +115,12 @@ class MuJoCo:
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""
-        scene, start = with_rods(scene, start)
+        scene, start = self._built(scene, start)
         return as_options(settings.best(scene, start), settled=closed(scene, start))
+
+    def _built(self, scene: Scene, start: Start) -> tuple[Scene, Start]:
+        """The scene as its numbers are chosen for: with what stands for particles or distances."""
+        return with_box(scene, start) if self._shape else with_rods(scene, start)
 
     def cost(self, scene: Scene, start: Start) -> Cost:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
@@ -135,7 +140,12 @@ class MuJoCo:
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Elements of an MJCF file in which geoms touch, as users write them."""
-        bodies = scene.bodies
+        bodies, shape = scene.bodies, options.get("shapes")
+        touching = Counter(contact.body for contact in met(scene))
+        points = max(touching.values(), default=0)
+        if shape:
+            points = plain_shapes.points(scene, shape)
+            scene, start = with_box(scene, start)
         scene, start = with_rods(scene, start)
         with_own = partial(settings.with_own, scene=scene, start=start, tied_to=step)
         touches, plane = bool(worth(scene)), scene.frame is PLANE
@@ -146,20 +156,24 @@ class MuJoCo:
             options, contacts=touches, plane=plane, timed=timed, rods=rods, drives=drives
         )
         frictions = {contact.name: contact.friction for contact in met(scene)}
-        touching = Counter(contact.body for contact in met(scene))
-        points = max(touching.values(), default=0)
         return snippet(
             with_own(options), with_own({}), step, notes, frictions=frictions, points=points
         )
 
     def _plain(self, scene: Scene, start: Start, step: float, plan: Plan) -> str:
-        """The model with the shapes that a user has, behind what is pasted of the plan's numbers."""
+        """A user's model, behind what is pasted of the plan's numbers."""
         shipped = settings.with_own({}, scene, start, step)
-        pasted = snippet(plan.choices(step), shipped, step, [], frictions={})
-        return plain_shapes.plain_mjcf(scene, start, self._shape, pasted)
+        choices = plan.choices(step)
+        pasted = snippet(choices, shipped, step, [], frictions={})
+        numbers = {choice.name: choice.value for choice in choices}
+        alone = {name: attributes(numbers, of_one(name)) for name in scene.contacts}
+        return plain_shapes.plain_mjcf(scene, start, self._shape, pasted, alone)
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
+        if self._shape:
+            plan = self._plan(scene, start)
+            return plain_shapes.measured(scene, self._plain(scene, start, NOMINAL, plan))
         built, begun = with_rods(scene, start)
         model, data = compiled(built, begun, NOMINAL, self._plan(built, begun))
         bars = built.bodies.keys() - scene.bodies
@@ -186,6 +200,9 @@ class MuJoCo:
         """The MJCF file with its start as a keyframe, headed by comments, and shapes to be seen."""
         runs = f"{round(duration / step)} steps are {duration:g} s"
         begins = f"the start is its keyframe: mj_resetDataKeyframe(model, data, 0); {runs}"
+        if self._shape:
+            head = commented([*heading(self, title, step, plan, {}), begins])
+            return head + self._plain(scene, start, step, plan)
         head, model = self._script(scene, start, step, plan, title=title)
         return head + commented([begins]) + drawn(model, *with_rods(scene, start))
 

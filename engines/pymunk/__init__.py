@@ -12,15 +12,16 @@ from ...cases.trajectory import Array, Trajectory
 from ..engine import Cost, Plan, Realised, Refusal, Start
 from ..heading import heading
 from ..knobs import Knob, Options, Value
-from ..plain_shapes import PLAIN, with_box, without_box
+from ..plain_shapes import PLAIN, known_of, with_box, without_box
 from .adapter import plans
 from .adapter.claims import answered
-from .adapter.plans import numbers_by_name
 from .adapter.plain_shapes import OURS, planned, refused, words
+from .adapter.plans import numbers_by_name
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
 from .callbacks.cut import cuts
 from .callbacks.point_forces import states
+from .model.plain_shapes import SHAPES
 from .read.health import Left
 from .read.measure import measured
 from .read.record import Record
@@ -109,7 +110,10 @@ class Pymunk:
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
-        return measured(build(scene, start, {}, "native"))
+        if "shapes" not in self.options:
+            return measured(build(scene, start, {}, "native"))
+        world = build(*with_box(scene, start), {SHAPES: PLAIN}, "native")
+        return known_of(scene, measured(world))
 
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
@@ -131,6 +135,8 @@ class Pymunk:
         numbers = numbers_by_name(plan.choices(step))
         options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         head = heading(self, title, step, plan, options)
+        if "shapes" in self.options:
+            scene, start = with_box(scene, start)
         return text(scene, start, step, numbers, head, duration)
 
     def run(

@@ -55,6 +55,9 @@ def _measured_on(one: Advised) -> Iterator[str]:
     """Yields whose shapes the numbers belong to, where something touches."""
     if one.shapes:
         yield f"  measured as a user has it: {one.shapes[0].words}"
+        trial = trial_of(one.pair, one.shipped)
+        if trial and trial.withheld:
+            yield f"    {', '.join(trial.withheld)} not read there"
     elif ours := ours_alone(one.pair.engine, one.pair.case):
         yield f"  measured in our model alone, where {ours}"
 
@@ -87,7 +90,8 @@ def _paste(one: Advised, candidate: Candidate) -> Iterator[str]:
         yield f"    where {shape}: {lost}"
     yield "    to paste"
     start = first(one.pair.reference())
-    lines = engine.snippet(scene, start, candidate.options, candidate.step).rstrip().splitlines()
+    options = candidate.on(one.pair.shapes).options
+    lines = engine.snippet(scene, start, options, candidate.step).rstrip().splitlines()
     yield from (f"      {line}" for line in lines)
     yield "    as a file of --settings"
     yield f"      {settings(one.pair, candidate)}"

@@ -20,22 +20,25 @@ from ...plain_shapes import CYLINDER, PLAIN, unsuited, with_box, without_box
 from ..callbacks.signal import listening
 from ..model.drive import controls
 from ..model.force import BY_ITSELF, begun_with, lacking, write
-from ..model.number_text import EACH, lifted, written
+from ..model.number_text import lifted, written
 from ..model.planes import add_planes, add_sensors, dimensions, grounded, touching
 from ..model.tree import called
+from ..read.measure import tensor
 from ..read.reaction import felt_force
 from ..read.record import all_steps, counted, whole
 from .run import check
 
 ONE_SUM = "adapter: shapes: what one plane exerts on a geom is read as one force"
 
-OURS = "a point that touches is a sphere of 1e-12 m, each contact a <pair>, no body leaves its plane"
+OURS = (
+    "a point that touches is a sphere of 1e-12 m, each contact a <pair>, no body leaves its plane"
+)
 
 
 def refused(scene: Scene, shape: str, options: Mapping[str, object]) -> str | None:
     """Why the scene is not built with such shapes, as a `Refusal` says it; None: it is."""
-    if options.get("settled") or EACH in options:
-        return "adapter: shapes: a settled start, or numbers of one contact, cannot be pasted"
+    if options.get("settled"):
+        return "adapter: shapes: a settled start cannot be pasted"
     if any(law.law not in BY_ITSELF for law in scene.laws()) or lacking(scene):
         return "adapter: shapes: a force takes a callback"
     if why := unsuited(scene):
@@ -49,10 +52,18 @@ def words(scene: Scene, start: Start, shape: str) -> str:
     """`block is a box geom of 0.2 × 0.1 × 0.2 m with a free joint`."""
     (body,) = with_box(scene, start)[0].bodies.values()
     geom = _geom(body, shape)
-    sizes = [2 * float(size) for size in geom["size"].split()]
-    across = "" if geom["type"] == "box" else " across"
-    told = f"{' × '.join(f'{size:g}' for size in sizes)} m{across}"
+    across, *others = [f"{2 * float(size):g}" for size in geom["size"].split()]
+    if body.radius is None:
+        told = f"{' × '.join([across, *others])} m"
+    else:
+        told = " and ".join([f"{across} m across", *(f"{long} m long" for long in others)])
     return f"{body.name} is a {geom['type']} geom, {told}, with a free joint"
+
+
+def points(scene: Scene, shape: str) -> int:
+    """At how many points the geom touches a plane at most."""
+    (body,) = scene.bodies.values()
+    return 4 if body.radius is None else 2 if shape == CYLINDER else 1
 
 
 def planned(plan: Plan, scene: Scene, start: Start, shape: str) -> Plan:
@@ -72,8 +83,13 @@ def _protocol(what: str, step: float) -> str:
     return what
 
 
-def plain_mjcf(scene: Scene, start: Start, shape: str, pasted: str) -> str:
-    """The model as a user writes it, with the start as a keyframe, behind the pasted lines."""
+def plain_mjcf(
+    scene: Scene, start: Start, shape: str, pasted: str, alone: Mapping[str, Mapping[str, str]]
+) -> str:
+    """The model as a user writes it, with the start as a keyframe, behind the pasted lines.
+
+    alone: by contact what it alone has, as the lines say.
+    """
     scene, start = with_box(scene, start)
     (body,) = scene.bodies.values()
     root = ET.fromstring(f"<mujoco>{pasted}</mujoco>")
@@ -99,12 +115,12 @@ def plain_mjcf(scene: Scene, start: Start, shape: str, pasted: str) -> str:
     if body.radius is not None and (shape == PLAIN or body.shape != "disk"):
         j = written(body.moment, body.moment, body.moment)
         ET.SubElement(element, "inertial", pos="0 0 0", mass=written(body.mass), diaginertia=j)
-    # What a geom has not: pasted lines with it ask for pairs.
-    if any("solreffriction" in pair.attrib for pair in root.iter("pair")):
+    # What a geom has not: lines with it ask for pairs.
+    if any(alone.values()) or any("solreffriction" in pair.attrib for pair in root.iter("pair")):
         pairs = ET.SubElement(root, "contact")
         for name, contact in contacts.items():
             ET.SubElement(
-                pairs, "pair", geom1=grounded(name), geom2=body.name,
+                pairs, "pair", dict(alone[contact.name]), geom1=grounded(name), geom2=body.name,
                 condim=dimensions(contact.friction),
                 friction=written(contact.friction, contact.friction),
             )  # fmt: skip
@@ -142,6 +158,28 @@ def _keyframe(root: ET.Element, scene: Scene, start: Start) -> None:
         key.set("act", written(*activations))
     if laws := controls(scene):
         key.set("ctrl", written(*(1 for _ in laws)))
+
+
+def measured(scene: Scene, text: str) -> dict[str, float]:
+    """The physics of such a model, as `Engine.measure` tells it."""
+    model = mujoco.MjModel.from_xml_string(text)
+    (body,) = scene.bodies.values()
+    number = model.body(called(body.name)).id
+    found = {f"gravity.{axis}": model.opt.gravity[i] for i, axis in enumerate(scene.frame.axes)}
+    found[f"{body.name}.mass"] = model.body_mass[number]
+    if body.turns:
+        found[f"{body.name}.inertia"] = tensor(model, number)[2, 2]
+    for contact in scene.contacts.values():
+        met = {model.geom(name).id for name in (grounded(contact.on), body.name)}
+        pairs = [i for i in range(model.npair) if {*_geoms(model, i)} == met]
+        rubbing = [model.pair_friction[i, 0] for i in pairs]
+        rubbing = rubbing or [max(model.geom_friction[i, 0] for i in met)]
+        found[f"{contact.name}.friction"] = rubbing[0] if contact.friction else 0.0
+    return {name: float(x) for name, x in found.items()}
+
+
+def _geoms(model: mujoco.MjModel, pair: int) -> tuple[int, int]:
+    return int(model.pair_geom1[pair]), int(model.pair_geom2[pair])
 
 
 def run(

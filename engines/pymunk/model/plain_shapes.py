@@ -28,7 +28,7 @@ def add_plain_shapes(world: World) -> None:
     ((name, part),) = scene.bodies.items()
     shape = _shape(world, part, name)
     shape.friction, shape.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
-    world.wheels.update(dict.fromkeys(scene.contacts, shape))
+    world.plain.update(dict.fromkeys(scene.contacts, shape))
     world.space.add(shape)
 
 
@@ -41,5 +41,5 @@ def _shape(world: World, part: Part, name: str) -> Circle | Poly:
 
 def swell(world: World, seed: float) -> None:
     """What the pasted lines do to what only touches: the shape grows by the seed [m]."""
-    for shape in set(world.wheels.values()):
+    for shape in set(world.plain.values()):
         shape.unsafe_set_radius(shape.radius + seed)

@@ -36,10 +36,9 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     space = Space()
     space.gravity = scene.gravity
     walks = stride(scene, [contact.name for contact in closed(scene, start)])
-    plain = SHAPES in numbers
-    world = World(scene, space, numbers.get("ground.reach", NEAR), stride=walks, plain=plain)
+    world = World(scene, space, numbers.get("ground.reach", NEAR), stride=walks)
     _bodies(world, start)
-    (add_plain_shapes if plain else _contacts)(world)
+    (add_plain_shapes if SHAPES in numbers else _contacts)(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
     limits(world)

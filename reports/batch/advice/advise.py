@@ -148,11 +148,15 @@ def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Adv
     assert own is not None  # as shipped
     steps = fitting(engine.steps, own, case.interval)
     start = first(reference)
-    knobs = engine.knobs(case.scene, start)
+    users = shapes(engine, case, start)
+    pair = replace(pair, shapes=users[0].options if users else {})
+    built = NOTHING.at(own).on(pair.shapes).engine(engine.name) if users else engine
+    assert isinstance(built, Tunable)
+    knobs = built.knobs(case.scene, start)
     ours = {
         name for knob in knobs if knob.kind == "ours" for v in knob.values for name in v.options
     }
-    tuned = {k: v for k, v in engine.recipe(case.scene, start).items() if k not in ours}
+    tuned = {k: v for k, v in built.recipe(case.scene, start).items() if k not in ours}
     withheld = [knob.tuned.words for knob in knobs if knob.kind == "ours" and knob.tuned]
     menu = Menu([knob for knob in knobs if knob.kind != "ours"], steps, own, tuned, withheld)
     bar = Bar(Known(), asked.margin, _scale(Trial(case, reference, engine, way), asked.tolerance))
@@ -162,8 +166,6 @@ def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Adv
     def cost(candidate: Candidate) -> float:
         return dear(candidate.options, candidate.step)
 
-    users = shapes(engine, case, start)
-    pair = replace(pair, shapes=users[0].options if users else {})
     return Advised(pair, asked, way, Kitchen(menu, bar, cost), None, shapes=users)
 
 

@@ -42,7 +42,9 @@ def measured_beside(
     for key, (pair, known_shapes, candidates, scale) in asked.items():
         for shape in known_shapes[1:]:
             known, other = Known(), replace(pair, shapes=shape.options)
-            searches[f"{key} {shape.words}"] = Search(other, known, _worst(known, candidates, scale))
+            searches[f"{key} {shape.words}"] = Search(
+                other, known, _worst(known, candidates, scale)
+            )
     found = together("other shapes", searches, results) if searches else {}
     return {
         key: {
