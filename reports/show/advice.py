@@ -39,7 +39,7 @@ def advice_lines(one: Advised) -> Iterator[str]:
         if ours := " and ".join(one.kitchen.menu.ours):
             yield f"    not tried, for it takes our adapter, as `run --causes` does: {ours}"
         for candidate in one.pasted:
-            yield f"  the nearest: {_named(candidate)}, {milliseconds(candidate.step)}"
+            yield "  the nearest"
             yield from _found(one, candidate)
             yield from _paste(one, candidate)
     for place, (want, recipe) in enumerate(one.wanted):
@@ -60,10 +60,6 @@ def _measured_on(one: Advised) -> Iterator[str]:
             yield f"    {', '.join(trial.withheld)} not read there"
     elif ours := ours_alone(one.pair.engine, one.pair.case):
         yield f"  measured in our model alone, where {ours}"
-
-
-def _named(candidate: Candidate) -> str:
-    return as_text(candidate.options) if candidate.options else "as shipped"
 
 
 def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:

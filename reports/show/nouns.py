@@ -29,6 +29,7 @@ from ...engines.engine import (
     Engine,
     Maker,
     Paced,
+    Plain,
     Plan,
     Refusal,
     Tunable,
@@ -46,7 +47,7 @@ PARTS: Mapping[str, tuple[type, ...]] = {
     "Laws in time": (Signal,),
     "What an engine answers with": (Plan, Choice, Refusal, Trajectory),
     "Quantities": (Quantity,),
-    "The engine": (Maker, Engine, Tunable, Claims, Paced),
+    "The engine": (Maker, Engine, Tunable, Plain, Claims, Paced),
 }
 """What stands in which section."""
 TOLD = ("Scene", "Body", "Contact", "Pair", "Joint")
