@@ -1,11 +1,12 @@
 """A scene of one body with the shape that a user has: a geom on a free joint, advice pasted in.
 
 Nothing of our own model is in it: no point of 1e-12 m, no three freedoms, no settled start, and no
-pair but those that the pasted lines ask for.
+pair but those that the pasted lines ask for. Its z is up, and is the scene's y: MuJoCo's own floor
+lies exactly level, and a box that is put on it is not in contact yet, as no user's is.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from xml.etree import ElementTree as ET
@@ -14,14 +15,14 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import GROUND, Body, Scene
-from ....cases.trajectory import ANGLE, OMEGA, Array, Trajectory
+from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
 from ...engine import Plan, Start
 from ...plain_shapes import CYLINDER, PLAIN, unsuited, with_box, without_box
 from ..callbacks.signal import listening
 from ..model.drive import controls
 from ..model.force import BY_ITSELF, begun_with, lacking, write
 from ..model.number_text import lifted, written
-from ..model.planes import add_planes, add_sensors, dimensions, grounded, touching
+from ..model.planes import add_sensors, dimensions, grounded, touching
 from ..model.tree import called
 from ..read.measure import tensor
 from ..read.reaction import felt_force
@@ -93,21 +94,22 @@ def plain_mjcf(
     scene, start = with_box(scene, start)
     (body,) = scene.bodies.values()
     root = ET.fromstring(f"<mujoco>{pasted}</mujoco>")
-    option = ET.SubElement(root, "option", gravity=written(*lifted(scene.gravity)))
+    option = ET.SubElement(root, "option", gravity=written(*raised(scene.gravity)))
     ET.SubElement(option, "flag", autoreset="disable")  # a reset must not look like a motion
     world = ET.SubElement(root, "worldbody")
-    add_planes(world, scene)
     contacts = {contact.on: contact for contact in touching(scene).values()}
-    for plane, contact in zip(world.findall("geom"), contacts.values(), strict=True):
-        del plane.attrib["contype"], plane.attrib["conaffinity"]
-        plane.attrib.update(_rubs(contact.friction))
+    for name, contact in contacts.items():
+        given = {"name": grounded(name), "type": "plane", "size": "0 0 1"} | _rubs(contact.friction)
+        given |= {} if contact.plane.level else {"zaxis": written(*raised(contact.plane.normal))}
+        given |= {"pos": written(*raised(contact.plane.at))} if any(contact.plane.at) else {}
+        ET.SubElement(world, "geom", given)
     ET.SubElement(world, "site", name=GROUND)
     for name, point in scene.points.items():
-        ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=written(*lifted(point.at)))
+        ET.SubElement(world, "site", name=f"{GROUND}.{name}", pos=written(*raised(point.at)))
     element = ET.SubElement(world, "body", name=called(body.name))
     ET.SubElement(element, "freejoint", name=body.name)
     for name, at in body.points.items():
-        ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*lifted(at)))
+        ET.SubElement(element, "site", name=f"{body.name}.{name}", pos=written(*raised(at)))
     # Of two geoms that touch the larger friction counts: that of the plane.
     least = min(contact.friction for contact in contacts.values())
     geom = _geom(body, shape) | {"name": body.name, "mass": written(body.mass)} | _rubs(least)
@@ -125,6 +127,9 @@ def plain_mjcf(
                 friction=written(contact.friction, contact.friction),
             )  # fmt: skip
     write(root, scene)
+    for force in root.iter("general"):
+        gear = [float(number) for number in force.get("gear", "1").split()]
+        force.set("gear", written(*raised(gear[:3]), *raised(gear[3:])))
     sensors = ET.SubElement(root, "sensor")
     add_sensors(sensors, scene)
     for sensor in sensors:
@@ -141,19 +146,27 @@ def _rubs(friction: float) -> dict[str, str]:
 
 def _geom(body: Body, shape: str) -> dict[str, str]:
     if body.radius is not None and shape == CYLINDER:
-        return {"type": "cylinder", "size": written(body.radius, body.radius / 2)}
+        size = written(body.radius, body.radius / 2)
+        return {"type": "cylinder", "size": size, "zaxis": "0 1 0"}
     if body.radius is not None:
         return {"type": "sphere", "size": written(body.radius)}
     assert body.size is not None  # else it is unsuited
     width, height = body.size
-    return {"type": "box", "size": written(width / 2, height / 2, width / 2)}
+    return {"type": "box", "size": written(width / 2, width / 2, height / 2)}
+
+
+def raised(vector: Sequence[float]) -> tuple[float, float, float]:
+    """A vector of the plane, or of MuJoCo's model of it, where z is up; no zero is negative."""
+    x, y, z = lifted(vector)
+    return x + 0.0, 0.0 - z, y + 0.0
 
 
 def _keyframe(root: ET.Element, scene: Scene, start: Start) -> None:
     ((x, y, angle, vx, vy, omega),) = start.values()
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
-    key.set("qpos", written(x, y, 0.0, math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)))
-    key.set("qvel", written(vx, vy, 0.0, 0.0, 0.0, omega))
+    turned = math.cos(angle / 2), *raised((0.0, 0.0, math.sin(angle / 2)))
+    key.set("qpos", written(*raised((x, y)), *turned))
+    key.set("qvel", written(*raised((vx, vy)), *raised((0.0, 0.0, omega))))
     if activations := begun_with(scene):
         key.set("act", written(*activations))
     if laws := controls(scene):
@@ -165,10 +178,10 @@ def measured(scene: Scene, text: str) -> dict[str, float]:
     model = mujoco.MjModel.from_xml_string(text)
     (body,) = scene.bodies.values()
     number = model.body(called(body.name)).id
-    found = {f"gravity.{axis}": model.opt.gravity[i] for i, axis in enumerate(scene.frame.axes)}
+    found = {"gravity.x": model.opt.gravity[0], "gravity.y": model.opt.gravity[2]}
     found[f"{body.name}.mass"] = model.body_mass[number]
     if body.turns:
-        found[f"{body.name}.inertia"] = tensor(model, number)[2, 2]
+        found[f"{body.name}.inertia"] = tensor(model, number)[1, 1]
     for contact in scene.contacts.values():
         met = {model.geom(name).id for name in (grounded(contact.on), body.name)}
         pairs = [i for i in range(model.npair) if {*_geoms(model, i)} == met]
@@ -201,7 +214,8 @@ def run(
         every = whole(model, data, len(grid))
         check(warnings, grid, every)
     assert every.felt is not None  # `whole` keeps it
-    felt = {name: felt_force(scene, model, name, every.felt) for name in reactions}
+    forces = every.felt.reshape(len(grid), -1, 3)[:, :, [0, 2, 1]].reshape(len(grid), -1)
+    felt = {name: felt_force(scene, model, name, forces) for name in reactions}
     states = dict(_states(with_box(scene, start)[1], every.qpos, every.qvel))
     phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends
     motion = Trajectory(
@@ -216,8 +230,9 @@ def run(
 def _states(start: Start, qpos: Array, qvel: Array) -> Iterator[tuple[str, Array]]:
     """(N, 6) of the body: its angle counts whole turns, of less than a half from step to step."""
     ((name, state),) = start.items()
-    rows = np.column_stack([qpos[:, :3], qvel[:, :3]])
-    turned = np.unwrap(2 * np.arctan2(qpos[:, 6], qpos[:, 3]))
+    rows = np.zeros((len(qpos), 6))
+    rows[:, [X, Y]], rows[:, [VX, VY]] = qpos[:, [0, 2]], qvel[:, [0, 2]]
+    turned = np.unwrap(2 * np.arctan2(-qpos[:, 5], qpos[:, 3]))
     rows[:, ANGLE] = turned + math.tau * np.round((state[ANGLE] - turned[0]) / math.tau)
-    rows[:, OMEGA] = qvel[:, 5]
+    rows[:, OMEGA] = -qvel[:, 4]
     yield name, rows
