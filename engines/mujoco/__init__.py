@@ -136,7 +136,7 @@ class MuJoCo:
 
     def own_contacts(self, scene: Scene) -> str:
         """See `Plain`."""
-        return plain_shapes.OURS if met(scene) else ""
+        return plain_shapes.OURS[scene.frame] if met(scene) else ""
 
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Elements of an MJCF file in which geoms touch, as users write them."""

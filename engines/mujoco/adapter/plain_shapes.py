@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import GROUND, Body, Scene
+from ....cases.scene.frame import PLANE, SPACE
 from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
 from ...engine import Plan, Start
 from ...plain_shapes import CYLINDER, PLAIN, unsuited, with_box, without_box
@@ -31,9 +32,11 @@ from .run import check
 
 ONE_SUM = "adapter: shapes: what one plane exerts on a geom is read as one force"
 
-OURS = (
-    "a point that touches is a sphere of 1e-12 m, each contact a <pair>, no body leaves its plane"
-)
+OURS = {
+    PLANE: "a point that touches is a sphere of 1e-12 m, and no body can leave its plane",
+    SPACE: "what touches is a ball, or a disk of 1e-6 m, and each contact a <pair>",
+}
+"""By the scene's frame, how our own model differs from a user's."""
 
 
 def refused(scene: Scene, shape: str, options: Mapping[str, object]) -> str | None:

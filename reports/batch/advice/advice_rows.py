@@ -15,7 +15,7 @@ from .candidates import NOTHING, Choice
 from .criterion import Bar
 from .parameter_draws import Held
 from .real_shapes import Beside
-from .recipe import Kitchen, Recipe, Recipes, best
+from .recipe import Kitchen, Recipe, Recipes, best, named_options
 
 
 @dataclass(frozen=True)
@@ -108,8 +108,8 @@ def settings(pair: Pair, candidate: Candidate) -> str:
 
 
 def words(choice: Choice) -> str:
-    """`RK4 + impratio 100`."""
-    return " + ".join(choice.words) or "as shipped"
+    """`RK4 + impratio 100`: its one name, of the engine's own options and their values."""
+    return " + ".join(named_options(choice.options)) or "as shipped"
 
 
 def _nothing(bar: Bar) -> str:
