@@ -12,7 +12,7 @@ import numpy as np
 from ..cases.scene import Scene
 from ..cases.scene.motion import Motion
 from ..cases.trajectory import Array, Trajectory
-from .knobs import Knob, Options, Value
+from .knobs import Knob, Options
 
 Realised = Literal["native", "law", "driver"]
 """The engine's own force elements; our force law in a callback; our driver around the step."""
@@ -214,6 +214,18 @@ class Tunable(Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Shape:
+    """What stands for a scene in a user's model, and the own options that build it.
+
+    held: whether recipes have to hold on it, too; else they are measured on it.
+    """
+
+    words: str
+    options: Options
+    held: bool = True
+
+
 @runtime_checkable
 class Plain(Protocol):
     """An optional extension of `Tunable`: scenes with the shapes that a user has, not ours.
@@ -222,11 +234,10 @@ class Plain(Protocol):
     advice is searched on these shapes, started as a user starts them.
     """
 
-    def shapes(self, scene: Scene, start: Start) -> Sequence[Value]:
-        """What stands for the scene in a user's model, and the own options that build it.
+    def shapes(self, scene: Scene, start: Start) -> Sequence[Shape]:
+        """The shapes of a user's, on the first of which recipes are searched.
 
-        Recipes are searched on the first; on the others they are measured too. None where nothing
-        touches, or where the adapter builds its own model only.
+        None where nothing touches, or where the adapter builds its own model only.
         """
         ...
 

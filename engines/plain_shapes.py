@@ -16,13 +16,14 @@ from ..cases.scene.shape import CORNERS, block
 from ..cases.trajectory import ANGLE, OMEGA, Trajectory
 from .engine import Start
 
-PLAIN, CYLINDER = SHAPES = ("plain", "cylinder")
-"""Values of the option `shapes`: what is round is a sphere with the disk's inertia, or the disk."""
-WIDTH, HEIGHT = 0.2, 0.1  # m, of the box that stands for a particle: so flat that it does not tip
+PLAIN, CUBE, CYLINDER = SHAPES = ("plain", "cube", "cylinder")
+"""Values of the option `shapes`: a particle is a flat box, or a cube, of which fewer corners carry
+when it is pushed; what is round is a sphere with the disk's inertia, or the disk itself."""
+SIZES = {PLAIN: (0.2, 0.1), CUBE: (0.1, 0.1)}  # m, width and height of what stands for a particle
 FOOT = "foot"  # the middle of its lower face, where the particle is
 
 
-def unsuited(scene: Scene) -> str | None:
+def unsuited(scene: Scene, shape: str) -> str | None:
     """Why no plain shapes stand for the scene, as a `Refusal` says it; None: they do."""
     beside = (scene.joints, scene.constraints, scene.pairs, scene.drives)
     if scene.frame is not PLANE or len(scene.bodies) != 1 or any(beside) or any(scene.limits()):
@@ -36,6 +37,8 @@ def unsuited(scene: Scene) -> str | None:
         )
     if not body.turns and len(contacts) > 1:
         return f"adapter: shapes: {body.name} is a point on two planes"
+    if (shape == CUBE and body.turns) or (shape == CYLINDER and body.radius is None):
+        return f"adapter: shapes: {body.name} is no {shape}"
     return None
 
 
@@ -45,16 +48,17 @@ def _touches(body: Body, point: str) -> bool:
     return body.size is not None and point in CORNERS
 
 
-def with_box(scene: Scene, start: Start) -> tuple[Scene, Start]:
+def with_box(scene: Scene, start: Start, shape: str) -> tuple[Scene, Start]:
     """The scene with a box for its particle, which lies flat on the plane; others as they are."""
     (body,) = scene.bodies.values()
     if body.turns:
         return scene, start
-    foot = {FOOT: (0.0, -HEIGHT / 2)}
-    box = block(name=body.name, mass=body.mass, width=WIDTH, height=HEIGHT, points=foot)
+    width, height = SIZES[shape]
+    foot = {FOOT: (0.0, -height / 2)}
+    box = block(name=body.name, mass=body.mass, width=width, height=height, points=foot)
     (contact,), (x, y, _, vx, vy, _) = scene.contacts.values(), start[body.name]
     (ux, uy), (nx, ny) = contact.plane.along, contact.plane.normal
-    place = x + HEIGHT / 2 * nx, y + HEIGHT / 2 * ny
+    place = x + height / 2 * nx, y + height / 2 * ny
     contacts = {contact.name: replace(contact, at=Anchor(body.name, FOOT))}
     found = replace(scene, bodies={body.name: box}, contacts=contacts)
     return found, {body.name: (*place, math.atan2(uy, ux) + 0.0, vx, vy, 0.0)}
@@ -66,13 +70,13 @@ def known_of(scene: Scene, found: Mapping[str, float]) -> dict[str, float]:
     return {name: number for name, number in found.items() if name not in points}
 
 
-def without_box(scene: Scene, motion: Trajectory) -> Trajectory:
+def without_box(scene: Scene, motion: Trajectory, shape: str) -> Trajectory:
     """The motion of `with_box` as the particle's: half a box below its centre."""
     (body,) = scene.bodies.values()
     if body.turns:
         return motion
     (contact,) = scene.contacts.values()
-    away = HEIGHT / 2 * np.array(contact.plane.normal)
+    away = SIZES[shape][1] / 2 * np.array(contact.plane.normal)
 
     def lowered(states: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         rows = states[body.name].copy()

@@ -11,10 +11,10 @@ import mujoco
 from ...cases.scene import Scene
 from ...cases.scene.frame import PLANE
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Cost, Plan, Realised, Refusal, Start
+from ..engine import Cost, Plan, Realised, Refusal, Shape, Start
 from ..heading import heading
-from ..knobs import Knob, Options, Value
-from ..plain_shapes import SHAPES, with_box
+from ..knobs import Knob, Options
+from ..plain_shapes import CYLINDER, SHAPES, with_box
 from .adapter import plain_shapes
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
 from .adapter.inverse_dynamics import answered
@@ -120,16 +120,18 @@ class MuJoCo:
 
     def _built(self, scene: Scene, start: Start) -> tuple[Scene, Start]:
         """The scene as its numbers are chosen for: with what stands for particles or distances."""
-        return with_box(scene, start) if self._shape else with_rods(scene, start)
+        return with_box(scene, start, self._shape) if self._shape else with_rods(scene, start)
 
     def cost(self, scene: Scene, start: Start) -> Cost:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
         return cost
 
-    def shapes(self, scene: Scene, start: Start) -> list[Value]:
-        """See `Plain`: a geom with a free joint."""
+    def shapes(self, scene: Scene, start: Start) -> list[Shape]:
+        """See `Plain`: a geom with a free joint; a disk that lies as a cylinder is another body."""
         return [
-            Value(plain_shapes.words(scene, start, shape), {"shapes": shape})
+            Shape(
+                plain_shapes.words(scene, start, shape), {"shapes": shape}, held=shape != CYLINDER
+            )
             for shape in SHAPES
             if not plain_shapes.refused(scene, shape, {})
         ]
@@ -145,7 +147,7 @@ class MuJoCo:
         points = max(touching.values(), default=0)
         if shape:
             points = plain_shapes.points(scene, shape)
-            scene, start = with_box(scene, start)
+            scene, start = with_box(scene, start, shape)
         scene, start = with_rods(scene, start)
         with_own = partial(settings.with_own, scene=scene, start=start, tied_to=step)
         touches, plane = bool(worth(scene)), scene.frame is PLANE
@@ -235,7 +237,7 @@ class MuJoCo:
         if self._shape:
             text = self._plain(scene, start, step, plan)
             wanted = tuple(name for name in reactions if name not in plan.withheld)
-            return plain_shapes.run(scene, start, times, text, wanted, record=record)
+            return plain_shapes.run(scene, start, times, self._shape, text, wanted, record=record)
         built, begun = with_rods(scene, start)
         with lent(built, begun, step, plan, settles=self._settles) as (model, data):
             found = simulate(

@@ -9,10 +9,10 @@ import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Cost, Plan, Realised, Refusal, Start
+from ..engine import Cost, Plan, Realised, Refusal, Shape, Start
 from ..heading import heading
-from ..knobs import Knob, Options, Value
-from ..plain_shapes import PLAIN, known_of, with_box, without_box
+from ..knobs import Knob, Options
+from ..plain_shapes import CUBE, PLAIN, known_of, with_box, without_box
 from .adapter import plans
 from .adapter.claims import answered
 from .adapter.plain_shapes import OURS, planned, refused, words
@@ -61,8 +61,8 @@ class Pymunk:
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; if tuned, dampers and dry friction also by their laws, edges by a driver."""
-        plain = "shapes" in self.options
-        refusal = unbuildable(scene) or (refused(scene, self.options) if plain else None)
+        shape = self._shape
+        refusal = unbuildable(scene) or (shape and refused(scene, shape, self.options))
         if refusal:
             return [Refusal("native", refusal)]
         without = [Refusal("native", why) for why in not_native(scene)]
@@ -72,7 +72,7 @@ class Pymunk:
         numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
         shipped = self.setting == "shipped"
         found = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
-        return [*without, *(planned(one, scene, start) if plain else one for one in found)]
+        return [*without, *(planned(one, scene, start, shape) if shape else one for one in found)]
 
     def pace(self, scene: Scene) -> float:
         """See `Paced`; measured on chains: sweeps grow by the square of the joints."""
@@ -95,9 +95,18 @@ class Pymunk:
         """See `Tunable`."""
         return cost(scene, start)
 
-    def shapes(self, scene: Scene, start: Start) -> list[Value]:
+    def shapes(self, scene: Scene, start: Start) -> list[Shape]:
         """See `Plain`: a `Poly` or a `Circle`."""
-        return [] if refused(scene, {}) else [Value(words(scene, start), {"shapes": PLAIN})]
+        return [
+            Shape(words(scene, start, shape), {"shapes": shape})
+            for shape in (PLAIN, CUBE)
+            if not refused(scene, shape, {})
+        ]
+
+    @property
+    def _shape(self) -> str:
+        """Of a user's script, as the option `shapes` says; empty: ours."""
+        return self.options.get("shapes", "")
 
     def own_contacts(self, scene: Scene) -> str:
         """See `Plain`."""
@@ -110,9 +119,9 @@ class Pymunk:
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
-        if "shapes" not in self.options:
+        if not self._shape:
             return measured(build(scene, start, {}, "native"))
-        world = build(*with_box(scene, start), {SHAPES: PLAIN}, "native")
+        world = build(*with_box(scene, start, self._shape), {SHAPES: self._shape}, "native")
         return known_of(scene, measured(world))
 
     def answer(
@@ -135,8 +144,8 @@ class Pymunk:
         numbers = numbers_by_name(plan.choices(step))
         options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         head = heading(self, title, step, plan, options)
-        if "shapes" in self.options:
-            scene, start = with_box(scene, start)
+        if self._shape:
+            scene, start = with_box(scene, start, self._shape)
         return text(scene, start, step, numbers, head, duration)
 
     def run(
@@ -153,14 +162,14 @@ class Pymunk:
         """The motion, by `space.step(h)` between samples; once more where the floor was short."""
         numbers = numbers_by_name(plan.choices(step))
         wanted = tuple(name for name in reactions if name not in plan.withheld)
-        plain = "shapes" in self.options
-        built, begun = with_box(scene, start) if plain else (scene, start)
+        shape = self._shape
+        built, begun = with_box(scene, start, shape) if shape else (scene, start)
         again = partial(_run, built, begun, times, step, plan.realised, wanted, record)
         try:
             motion = again(numbers)
         except Left:
             motion = again(numbers | {"ground.reach": FAR})
-        return without_box(scene, motion) if plain else motion
+        return without_box(scene, motion, shape) if shape else motion
 
 
 def _run(

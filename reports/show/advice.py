@@ -66,7 +66,7 @@ def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
     assert one.kitchen is not None
     candidate = recipe.candidate
     yield from _found(one, candidate)
-    if candidate in (cut := one.kitchen.bar.elsewhere):
+    if candidate in (cut := one.kitchen.bar.elsewhere) and not one.shapes:
         yield f"    with the loop cut at other joints at most {factor(cut[candidate])}"
     cost = one.kitchen.cost(candidate) / one.kitchen.cost(one.shipped)
     measured = ratio(one.pair, candidate, one.shipped)

@@ -32,6 +32,7 @@ from ...engines.engine import (
     Plain,
     Plan,
     Refusal,
+    Shape,
     Tunable,
 )
 from .table import markdown
@@ -45,7 +46,7 @@ PARTS: Mapping[str, tuple[type, ...]] = {
     "Constraints": (Edge,),
     "Forces": NOUNS,
     "Laws in time": (Signal,),
-    "What an engine answers with": (Plan, Choice, Refusal, Trajectory),
+    "What an engine answers with": (Plan, Choice, Refusal, Shape, Trajectory),
     "Quantities": (Quantity,),
     "The engine": (Maker, Engine, Tunable, Plain, Claims, Paced),
 }

@@ -18,7 +18,9 @@ from textmech.cases.case import Case
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 
-BOX = (0.2, 0.1)  # m, of what a case calls a particle: nobody has a point
+Box = tuple[float, float]
+BOX: Box = (0.2, 0.1)  # m, of what a case calls a particle: nobody has a point
+CUBE: Box = (0.1, 0.1)
 
 MJCF = """
 <mujoco>
@@ -37,14 +39,14 @@ MJCF = """
 """
 
 
-def in_mujoco(case: Case, start: Start, pasted: str, times: Array) -> Array:
+def in_mujoco(case: Case, start: Start, pasted: str, times: Array, box: Box = BOX) -> Array:
     """(N, 3) x, y and angle at the times: a box geom, or a sphere with the disk's inertia."""
     (body,), (contact,) = case.scene.bodies.values(), [*case.scene.contacts.values()][:1]
     (x, y, angle, vx, vy, omega), (gx, gy) = start[body.name], case.scene.gravity
-    lifted = 0.0 if body.turns else BOX[1] / 2
+    lifted = 0.0 if body.turns else box[1] / 2
     geom, inertial = f'type="sphere" size="{body.radius}"', ""
     if body.radius is None:
-        width, height = body.size or BOX
+        width, height = body.size or box
         geom = f'type="box" size="{width / 2} {width / 2} {height / 2}"'
     else:
         j = body.moment
@@ -71,18 +73,18 @@ def in_mujoco(case: Case, start: Start, pasted: str, times: Array) -> Array:
     return np.array(rows)
 
 
-def in_pymunk(case: Case, start: Start, pasted: str, times: Array) -> Array:
+def in_pymunk(case: Case, start: Start, pasted: str, times: Array, box: Box = BOX) -> Array:
     """(N, 3) x, y and angle at the times: a box, or a circle."""
     (part,), (contact,) = case.scene.bodies.values(), [*case.scene.contacts.values()][:1]
     x, y, angle, vx, vy, omega = start[part.name]
-    lifted = 0.0 if part.turns else BOX[1] / 2
+    lifted = 0.0 if part.turns else box[1] / 2
     space = pymunk.Space()
     space.gravity = case.scene.gravity
     floor = pymunk.Segment(space.static_body, (-100, 0), (100, 0), 0)
     floor.friction = floor.elasticity = 1.0
-    body = pymunk.Body(part.mass, part.moment or pymunk.moment_for_box(part.mass, BOX))
+    body = pymunk.Body(part.mass, part.moment or pymunk.moment_for_box(part.mass, box))
     if part.radius is None:
-        shape: Any = pymunk.Poly.create_box(body, part.size or BOX)
+        shape: Any = pymunk.Poly.create_box(body, part.size or box)
     else:
         shape = pymunk.Circle(body, part.radius)
     shape.friction, shape.elasticity = contact.friction, contact.restitution

@@ -18,7 +18,7 @@ from ....cases.scene import GROUND, Body, Scene
 from ....cases.scene.frame import PLANE, SPACE
 from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
 from ...engine import Plan, Start
-from ...plain_shapes import CYLINDER, PLAIN, unsuited, with_box, without_box
+from ...plain_shapes import CYLINDER, unsuited, with_box, without_box
 from ..callbacks.signal import listening
 from ..model.drive import controls
 from ..model.force import BY_ITSELF, begun_with, lacking, write
@@ -45,16 +45,12 @@ def refused(scene: Scene, shape: str, options: Mapping[str, object]) -> str | No
         return "adapter: shapes: a settled start cannot be pasted"
     if any(law.law not in BY_ITSELF for law in scene.laws()) or lacking(scene):
         return "adapter: shapes: a force takes a callback"
-    if why := unsuited(scene):
-        return why
-    (body,) = scene.bodies.values()
-    round_one = body.radius is not None
-    return None if round_one or shape == PLAIN else f"adapter: shapes: {body.name} is not round"
+    return unsuited(scene, shape)
 
 
 def words(scene: Scene, start: Start, shape: str) -> str:
     """`block is a box geom of 0.2 × 0.1 × 0.2 m with a free joint`."""
-    (body,) = with_box(scene, start)[0].bodies.values()
+    (body,) = with_box(scene, start, shape)[0].bodies.values()
     geom = _geom(body, shape)
     across, *others = [f"{2 * float(size):g}" for size in geom["size"].split()]
     if body.radius is None:
@@ -94,7 +90,7 @@ def plain_mjcf(
 
     alone: by contact what it alone has, as the lines say.
     """
-    scene, start = with_box(scene, start)
+    scene, start = with_box(scene, start, shape)
     (body,) = scene.bodies.values()
     root = ET.fromstring(f"<mujoco>{pasted}</mujoco>")
     option = ET.SubElement(root, "option", gravity=written(*raised(scene.gravity)))
@@ -117,7 +113,7 @@ def plain_mjcf(
     least = min(contact.friction for contact in contacts.values())
     geom = _geom(body, shape) | {"name": body.name, "mass": written(body.mass)} | _rubs(least)
     ET.SubElement(element, "geom", geom)
-    if body.radius is not None and (shape == PLAIN or body.shape != "disk"):
+    if body.radius is not None and (shape != CYLINDER or body.shape != "disk"):
         j = written(body.moment, body.moment, body.moment)
         ET.SubElement(element, "inertial", pos="0 0 0", mass=written(body.mass), diaginertia=j)
     # What a geom has not: lines with it ask for pairs.
@@ -202,6 +198,7 @@ def run(
     scene: Scene,
     start: Start,
     times: Array,
+    shape: str,
     text: str,
     reactions: tuple[str, ...],
     *,
@@ -219,7 +216,7 @@ def run(
     assert every.felt is not None  # `whole` keeps it
     forces = every.felt.reshape(len(grid), -1, 3)[:, :, [0, 2, 1]].reshape(len(grid), -1)
     felt = {name: felt_force(scene, model, name, forces) for name in reactions}
-    states = dict(_states(with_box(scene, start)[1], every.qpos, every.qvel))
+    states = dict(_states(with_box(scene, start, shape)[1], every.qpos, every.qvel))
     phase = np.zeros(len(grid), dtype=np.int64)  # an engine does not say when one ends
     motion = Trajectory(
         times,
@@ -227,7 +224,7 @@ def run(
         {name: rows[counts] for name, rows in felt.items()},
         record=Trajectory(grid, states, felt, phase=phase) if record else None,
     )
-    return without_box(scene, motion)
+    return without_box(scene, motion, shape)
 
 
 def _states(start: Start, qpos: Array, qvel: Array) -> Iterator[tuple[str, Array]]:

@@ -13,18 +13,18 @@ ONE_SUM = "adapter: shapes: what planes exert on a shape is read as one force"
 OURS = "a point that touches is a circle of 0.1 m that is kept above it"
 
 
-def refused(scene: Scene, options: Mapping[str, object]) -> str | None:
+def refused(scene: Scene, shape: str, options: Mapping[str, object]) -> str | None:
     """Why the scene is not built so, as a `Refusal` says it; None: it is."""
     if options.get("reflects"):
         return "adapter: shapes: tips that reflect cannot be pasted"
-    return unsuited(scene)
+    return unsuited(scene, shape)
 
 
-def planned(plan: Plan, scene: Scene, start: Start) -> Plan:
+def planned(plan: Plan, scene: Scene, start: Start, shape: str) -> Plan:
     """The plan with what is built, and what is not read."""
     several = scene.contacts if len(scene.contacts) > 1 else ()
     together = {f"{name}.{field}": ONE_SUM for name in several for field in ("normal", "tangent")}
-    said = partial(_protocol, words(scene, start))
+    said = partial(_protocol, words(scene, start, shape))
     return replace(plan, protocol=said, withheld={**plan.withheld, **together})
 
 
@@ -32,9 +32,9 @@ def _protocol(what: str, step: float) -> str:
     return what
 
 
-def words(scene: Scene, start: Start) -> str:
+def words(scene: Scene, start: Start, shape: str) -> str:
     """`block is a Poly of 0.2 × 0.1 m`, `ball is a Circle of radius 0.1 m`."""
-    (body,) = with_box(scene, start)[0].bodies.values()
+    (body,) = with_box(scene, start, shape)[0].bodies.values()
     if body.radius is not None:
         return f"{body.name} is a Circle of radius {body.radius:g} m"
     assert body.size is not None  # else it is unsuited

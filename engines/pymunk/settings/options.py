@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
-from ...plain_shapes import PLAIN
+from ...plain_shapes import CUBE, PLAIN
 from ..model.plain_shapes import SHAPES
 
 BY_THE_SCENE = "scene"  # instead of a number: as many as the scene needs
@@ -73,8 +73,8 @@ def _mistakes(name: str, value: Any) -> Iterator[str]:
         if not isinstance(value, bool):
             yield f"pymunk.{name}: should be true or false, is {value!r}"
     elif name == "shapes":
-        if value != PLAIN:
-            yield f"pymunk.shapes: should be {PLAIN}, is {value!r}"
+        if value not in (PLAIN, CUBE):
+            yield f"pymunk.shapes: should be {PLAIN} or {CUBE}, is {value!r}"
     elif not _right(name, value, _NUMBERS[name]):
         yield f"pymunk.{name}: should be {_what(name, _NUMBERS[name])}, is {value!r}"
 

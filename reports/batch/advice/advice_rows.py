@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ....cases.theme import themes
-from ....engines.engine import Plan, Refusal
-from ....engines.knobs import Value, as_text
+from ....engines.engine import Plan, Refusal, Shape
+from ....engines.knobs import as_text
 from ...data.row import Advice
 from ...data.short_numbers import milliseconds
 from ..search.candidate import Candidate
@@ -38,7 +38,7 @@ class Advised:
     kitchen: Kitchen | None
     recipes: Recipes | None
     draws: tuple[Held, ...] = ()  # of each of the two
-    shapes: Sequence[Value] = ()  # that a user has; what is advised is measured on the first
+    shapes: Sequence[Shape] = ()  # that a user has; what is advised is measured on the first
     beside: Beside = field(default_factory=dict[Candidate, Any])  # on the others
 
     @property
@@ -136,7 +136,8 @@ def _remains(one: Advised) -> dict[str, str | float]:
     else:
         what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
     if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
-        what = f"{quantity} is ×{worst:.2g} {best_of}, and not where a loop is cut elsewhere"
+        where = "on other shapes" if one.shapes else "where a loop is cut elsewhere"
+        what = f"{quantity} is ×{worst:.2g} {best_of}, and not {where}"
     if one.kitchen.bar.holds(candidate):
         but = "and the next finer step does not confirm it"
         what = f"{quantity} is ×{worst:.2g} {best_of}, {but}"

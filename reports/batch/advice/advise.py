@@ -26,7 +26,7 @@ from .advice_rows import Advised, Requirement
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
 from .parameter_draws import tried_in_draws
-from .real_shapes import measured_beside, shapes
+from .real_shapes import measured_beside, shapes, worst_on_shapes
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
 ZERO = 1e-9  # of `allow`: what is no larger in all the motion is nothing but rounding
@@ -64,6 +64,9 @@ def _searched(ready: Sequence[Advised], asked: Requirement, results: Results) ->
         left = {key: replace(one, recipes=answers[key]) for key, one in left.items()}
         found |= left
         worst = elsewhere({key: _asked_elsewhere(one) for key, one in left.items()}, results)
+        worst |= worst_on_shapes(
+            {key: (one.shapes, *_asked_elsewhere(one)) for key, one in left.items()}, results
+        )
         left = {key: one for key, one in left.items() if _rejected(one, worst[key])}
     found |= {key: replace(one, recipes=None) for key, one in left.items()}
     return _on_other_shapes(found, results)
@@ -72,7 +75,7 @@ def _searched(ready: Sequence[Advised], asked: Requirement, results: Results) ->
 def _on_other_shapes(found: Mapping[str, Advised], results: Results) -> list[Advised]:
     """Each with what its recipes do on the other shapes that a user may have."""
     asked = {
-        key: (one.pair, one.shapes, one.pasted, one.kitchen.bar.scale)
+        key: (one.pair, one.shapes[1:], one.pasted, one.kitchen.bar.scale)
         for key, one in found.items()
         if one.kitchen is not None
     }

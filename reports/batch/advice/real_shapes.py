@@ -8,8 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from ....cases.case import Case
-from ....engines.engine import Engine, Plain, Start
-from ....engines.knobs import Value
+from ....engines.engine import Engine, Plain, Shape, Start
 from ..search.candidate import Candidate
 from ..search.parallel_search import Asking, Known, Search, together
 from ..task_results import Results
@@ -20,7 +19,7 @@ Beside = Mapping[Candidate, Sequence[tuple[str, float, str]]]
 """By candidate, for each other shape its words, the worst error over its tolerance, and whose."""
 
 
-def shapes(engine: Engine, case: Case, start: Start) -> Sequence[Value]:
+def shapes(engine: Engine, case: Case, start: Start) -> Sequence[Shape]:
     """What stands for the case's scene in a user's model; none where only our own model does."""
     return engine.shapes(case.scene, start) if isinstance(engine, Plain) else ()
 
@@ -30,17 +29,36 @@ def ours_alone(engine: Engine, case: Case) -> str:
     return engine.own_contacts(case.scene) if isinstance(engine, Plain) else ""
 
 
+def worst_on_shapes(
+    asked: Mapping[str, tuple[Sequence[Shape], Pair, list[Candidate], Mapping[str, float]]],
+    results: Results,
+) -> dict[str, dict[Candidate, float]]:
+    """By key and candidate the worst error over its tolerance on shapes that it has to hold on.
+
+    Only of keys that have others than the first.
+    """
+    others = {
+        key: (pair, [shape for shape in known[1:] if shape.held], candidates, scale)
+        for key, (known, pair, candidates, scale) in asked.items()
+    }
+    found = measured_beside({key: one for key, one in others.items() if one[1]}, results)
+    return {
+        key: {candidate: max(worst for _, worst, _ in rows) for candidate, rows in beside.items()}
+        for key, beside in found.items()
+    }
+
+
 def measured_beside(
-    asked: Mapping[str, tuple[Pair, Sequence[Value], list[Candidate], Mapping[str, float]]],
+    asked: Mapping[str, tuple[Pair, Sequence[Shape], list[Candidate], Mapping[str, float]]],
     results: Results,
 ) -> dict[str, Beside]:
-    """By key what the candidates do on the other shapes.
+    """By key what the candidates do on other shapes.
 
-    asked: by key the pair, its shapes, the candidates, and the scale of its bar.
+    asked: by key the pair, those shapes, the candidates, and the scale of its bar.
     """
     searches: dict[str, Search[list[tuple[float, str]]]] = {}
-    for key, (pair, known_shapes, candidates, scale) in asked.items():
-        for shape in known_shapes[1:]:
+    for key, (pair, others, candidates, scale) in asked.items():
+        for shape in others:
             known, other = Known(), replace(pair, shapes=shape.options)
             searches[f"{key} {shape.words}"] = Search(
                 other, known, _worst(known, candidates, scale)
@@ -48,12 +66,10 @@ def measured_beside(
     found = together("other shapes", searches, results) if searches else {}
     return {
         key: {
-            candidate: [
-                (shape.words, *found[f"{key} {shape.words}"][i]) for shape in known_shapes[1:]
-            ]
+            candidate: [(shape.words, *found[f"{key} {shape.words}"][i]) for shape in others]
             for i, candidate in enumerate(candidates)
         }
-        for key, (_, known_shapes, candidates, _) in asked.items()
+        for key, (_, others, candidates, _) in asked.items()
     }
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.plain_models import MODELS
+from given.plain_models import BOX, CUBE, MODELS, Box
 
 from textmech.cases.case import Case
 from textmech.cases.language.document import read
@@ -73,11 +73,11 @@ def moved(name: str, folder: Path, part: float, step: float) -> Case:
     return next(other for other in load(file) if other.name == name)
 
 
-def worst(case: Case, engine: str, pasted: str) -> float:
+def worst(case: Case, engine: str, pasted: str, box: Box = BOX) -> float:
     """The largest error of the body's place over what is allowed, in a model of a user's own."""
     reference = solve(case).trajectory
     (body,) = case.scene.bodies
-    rows = MODELS[engine](case, first(reference), pasted, reference.times)
+    rows = MODELS[engine](case, first(reference), pasted, reference.times, box)
     off = np.max(np.abs(rows - reference.states[body][:, :3]), axis=0)
     names = {f"{body}.{axis}": error for axis, error in zip(("x", "y", "angle"), off, strict=True)}
     names["touch.gap"] = off[1]
@@ -97,7 +97,9 @@ def test_what_is_pasted_keeps_the_tolerance_in_a_users_own_model(
         for part in MOVED:
             case = moved(name, tmp_path, part, candidate.step)
             case = replace(case, duration=one.pair.case.duration, samples=one.pair.case.samples)
-            assert worst(case, engine, lines(one, candidate)) <= 1.0, (candidate, part)
+            for box in (BOX, CUBE):
+                off = worst(case, engine, lines(one, candidate), box)
+                assert off <= 1.0, (candidate, part, box)
 
 
 @pytest.mark.slow
