@@ -72,6 +72,7 @@ class Case:
     states: States | None = None  # of a claim about states; its times are their numbers
     long: bool = False  # whether its reference may take any amount of work
     corners: tuple[float, ...] = ()  # s, of the laws of a scene of which this has a part
+    late: float = 0.0  # s: how much later each sample is; an engine starts at the first
 
     @property
     def times(self) -> Array:
@@ -80,7 +81,7 @@ class Case:
         One that is a corner of a law but for rounding is that corner: 0.1 and not 1.2/12, of which
         a double is less than 0.1, and a force that jumps there would act a sample late.
         """
-        found = np.arange(self.samples, dtype=np.float64) * self.interval
+        found = np.arange(self.samples, dtype=np.float64) * self.interval + self.late
         for corner in {*self.corners, *self.scene.corners()}:
             k = min(self.samples - 1, max(0, round(corner / self.interval)))
             if abs(found[k] - corner) <= ROUNDED * self.duration:

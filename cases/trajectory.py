@@ -25,10 +25,11 @@ class Trajectory:
     twice, as the last row of one piece and the first of the next. ended: by the number of a piece,
     in the words of the mechanism what ended it, as `touch lands`; empty where nothing with a name
     did. switches: (K,) s, when the reference changes from one smooth piece to the next; an engine
-    has none to tell. endless: (K,) s, of each pile of events without end the times that the
-    reference has followed; it leaves out the rest. near: in space, by joint (N, K), its turns [rad]
-    as whoever made the motion counted them on the way: attitudes tell them but for whole turns.
-    fastest: how fast [rad/s] the fastest of them goes on the way.
+    has none to tell. blows: (K,) s, those of them at which velocities jump. endless: (K,) s, of
+    each pile of events without end the times that the reference has followed; it leaves out the
+    rest. near: in space, by joint (N, K), its turns [rad] as whoever made the motion counted them
+    on the way: attitudes tell them but for whole turns. fastest: how fast [rad/s] the fastest of
+    them goes on the way.
     """
 
     times: Array
@@ -38,6 +39,7 @@ class Trajectory:
     phase: NDArray[np.int64] | None = None
     ended: tuple[str, ...] = ()
     switches: Array = field(default_factory=lambda: np.zeros(0))
+    blows: Array = field(default_factory=lambda: np.zeros(0))
     endless: tuple[Array, ...] = ()
     near: Mapping[str, Array] = field(default_factory=dict)
     fastest: float = 0.0

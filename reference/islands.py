@@ -61,21 +61,27 @@ def _part(case: Case, scene: Scene, corners: tuple[float, ...]) -> Case:
 
 def together(case: Case, found: Sequence[Island]) -> tuple[Trajectory, tuple[Check, ...]]:
     """The motion of all, and of each check the gravest; errors of sums are sums of errors."""
-    motions = [island.motion for island in found]
-    states = {name: rows for motion in motions for name, rows in motion.states.items()}
-    motion = Trajectory(
-        case.times,
-        {name: states[name] for name in case.scene.bodies},
-        {name: values for motion in motions for name, values in motion.reactions.items()},
-        switches=np.unique(np.concatenate([motion.switches for motion in motions])),
-        near={name: turns for motion in motions for name, turns in motion.near.items()},
-        fastest=max(motion.fastest for motion in motions),
-    )
+    motion = joined(case, found, case.times)
     checks: dict[str, list[Check]] = {}
     for check in (check for island in found for check in island.checks):
         checks.setdefault(check.name, []).append(check)
     bases = [island.base for island in found]
     return motion, (*(_of_all(each) for each in checks.values()), _alone(case, motion, bases))
+
+
+def joined(case: Case, islands: Sequence[Island], times: Array) -> Trajectory:
+    """Returns the motion of all islands at the times."""
+    motions = [island.motion for island in islands]
+    states = {name: rows for motion in motions for name, rows in motion.states.items()}
+    return Trajectory(
+        times,
+        {name: states[name] for name in case.scene.bodies},
+        {name: values for motion in motions for name, values in motion.reactions.items()},
+        switches=np.unique(np.concatenate([motion.switches for motion in motions])),
+        blows=np.unique(np.concatenate([motion.blows for motion in motions])),
+        near={name: turns for motion in motions for name, turns in motion.near.items()},
+        fastest=max(motion.fastest for motion in motions),
+    )
 
 
 def _of_all(checks: Sequence[Check]) -> Check:

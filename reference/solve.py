@@ -28,7 +28,7 @@ from .coverage import noting
 from .determined import check_determined
 from .integrators.budget import apart
 from .integrators.now import begun, doing
-from .islands import Island, parts, together
+from .islands import Island, joined, parts, together
 from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
@@ -93,32 +93,78 @@ def _solved(case: Case) -> Island:
     written = _written(case)
     generated = mechanism(case)
     with refusals(case, generated):
-        system = written or generated
         if written:
             check_start(case, written, generated)
-        followed = follow(system, case.times, every=bool(case.events))
-        found = followed if system is generated else follow(generated, case.times)
+        built, answer = _answers(case, written, generated, case.times)
         doing("its quantities")
-        asked = _accelerations(case)
-        built = Answer(generated, found, accelerates=asked, scene=case.scene)
         opened = check_determined(case, built, generated)
-        beside = reactions_of(generated, found, followed)
-        answer = built
-        if system is not generated:
-            answer = Answer(system, followed, beside, asked, case.scene)
-        corners = [t for t in system.corners if 0.0 < t < case.duration]
-        switches = np.array([*(change.time for change in followed.changes), *corners], dtype=float)
-        motion = answer.trajectory(case.times)
-        motion = replace(motion, switches=switches, endless=followed.endless)
-        if case.events:
-            record = replace(answer.record(forces=_felt(case)), ended=_ended(found, followed))
-            motion = replace(motion, record=record)
+        motion = _motion(case, built, answer)
         marched = built.march(forces=pressed(case))  # in coordinates that see each turn
-        check_premises(case, marched, found)
+        check_premises(case, marched, built.followed)
         if built.turns.missed is not None:
             raise unreached(case, *built.turns.missed)
         checks = (*certify(case, answer, built, generated, motion, marched), *opened)
     return Island(case, motion, checks, generated.base)
+
+
+def _answers(
+    case: Case, written: System | None, generated: Mechanism, times: Array
+) -> tuple[Answer, Answer]:
+    """The generated mechanism's motion, and the answer: the written system's, if there is one."""
+    system, asked = written or generated, _accelerations(case)
+    followed = follow(system, times, every=bool(case.events))
+    moved = followed if system is generated else follow(generated, times)
+    built = Answer(generated, moved, accelerates=asked, scene=case.scene)
+    if system is generated:
+        return built, built
+    beside = reactions_of(generated, moved, followed)
+    return built, Answer(system, followed, beside, asked, case.scene)
+
+
+def _motion(case: Case, built: Answer, answer: Answer) -> Trajectory:
+    """The answer's bodies at the samples, with its record if the case asks for events."""
+    motion = _switched(answer, answer.trajectory(case.times), case.duration)
+    if case.events:
+        ended = _ended(built.followed, answer.followed)
+        motion = replace(motion, record=replace(answer.record(forces=_felt(case)), ended=ended))
+    return motion
+
+
+def _switched(answer: Answer, motion: Trajectory, end: float) -> Trajectory:
+    """The motion with the times at which it switches."""
+    followed = answer.followed
+    corners = [t for t in answer.system.corners if 0.0 < t < end]
+    return replace(
+        motion,
+        switches=np.array([*(change.time for change in followed.changes), *corners], dtype=float),
+        blows=np.array([change.time for change in answer.blows()], dtype=float),
+        endless=followed.endless,
+    )
+
+
+def motion_of(case: Case) -> Callable[[Array], Trajectory]:
+    """Returns a function for the motion that `solve` certifies at other times [s] up to its end.
+
+    It is followed once more, and each state at another time is a step from there.
+    """
+    begun(case.name)
+    answers = list[tuple[Case, Mechanism, Answer]]()
+    with bounded(case), one_thread():
+        for part in parts(case):
+            generated = mechanism(part)
+            with refusals(part, generated):
+                _, answer = _answers(part, _written(part), generated, part.times)
+            answers.append((part, generated, answer))
+
+    def at(times: Array) -> Trajectory:
+        islands = list[Island]()
+        with one_thread():
+            for part, generated, answer in answers:
+                motion = _switched(answer, answer.at(times), part.duration)
+                islands.append(Island(part, motion, (), generated.base))
+        return islands[0].motion if len(islands) == 1 else joined(case, islands, times)
+
+    return at
 
 
 def mechanism(case: Case) -> Mechanism:

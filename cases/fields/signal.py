@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -40,6 +40,16 @@ class Signal:
     def rate(self, times: Array) -> Array:
         """(N, axes) how fast its values change at the times [s], of one that moves a point."""
         return RATES[self.law](self, times)[:, None] * np.array(self.amplitude)
+
+    def later(self, by: float) -> "Signal":
+        """Returns the same law from the time `by` [s] on, up to which none of its corners lies."""
+        if self.law == "ramp":
+            return replace(self, law="polynomial", values=(by, 1.0))
+        if self.law == "polynomial":
+            moved = np.polynomial.Polynomial(self.values)(np.polynomial.Polynomial([by, 1.0]))
+            return replace(self, values=tuple(moved.coef.tolist()))
+        phase = self.phase + self.angular_frequency * by
+        return replace(self, phase=phase, times=tuple(t - by for t in self.times))
 
     def at_start(self) -> tuple[float, ...]:
         """Its values at t = 0."""

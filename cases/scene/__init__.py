@@ -5,7 +5,7 @@ counter-clockwise, SI units. What a scene is made of can be imported from here.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import wraps
 from typing import TypeVar
 
@@ -190,6 +190,16 @@ class Scene:
         yield from (law for edge in self.constraints.values() if (law := edge.speed) is not None)
         yield from self.drives.values()
         yield from (law for point in self.points.values() if (law := point.moves) is not None)
+
+    def later(self, by: float) -> "Scene":
+        """Returns the scene with all its laws in time from the time `by` [s] on."""
+        moved = {f.name: replace(f, signal=f.signal.later(by)) for f in self.signals()}
+        blades = {
+            name: edge if edge.speed is None else replace(edge, speed=edge.speed.later(by))
+            for name, edge in self.constraints.items()
+        }
+        drives = {quantity: law.later(by) for quantity, law in self.drives.items()}
+        return replace(self, forces={**self.forces, **moved}, constraints=blades, drives=drives)
 
     def corners(self) -> list[float]:
         """When [s] one of the laws in time jumps or bends."""

@@ -17,8 +17,10 @@ from ...cases.trajectory import Trajectory
 from ..coverage import equation
 from ..formalisms.derivative import along
 from ..system import Array, Mode, Pose, System
-from .follow import Followed, Kept
+from .follow import Change, Followed, Kept, rows_at
 from .stuck import Stuck, slope
+
+JUMPS = 1e-6  # of the fastest rate: what stops is set to rest by less, an impact jumps by more
 
 # The turns of joints in space, counted along the steps of the march: attitudes tell none.
 #
@@ -190,6 +192,21 @@ class Answer:
         phases = self.followed.phase.tolist()
         rows = zip(times.tolist(), phases, y, strict=True)
         return self.turns.with_turns(self._bodies(rows, forces=True))
+
+    def at(self, times: Array) -> Trajectory:
+        """The motion at any times [s] up to the last sample."""
+        return self.along(rows_at(self.system, self.followed, times))
+
+    def blows(self) -> list[Change]:
+        """Returns the changes of mode at which rates jump, as those of an impact do."""
+        parted = lambda mode, y: self.system.modes[mode].parted(y)[1]  # noqa: E731
+        jumps = [
+            float(np.max(np.abs(parted(c.mode_after, c.after) - parted(c.mode_before, c.before))))
+            for c in self.followed.changes
+        ]
+        rates = [np.abs(parted(self.followed.phases[k], y)) for _, k, y in self.followed.march]
+        least = JUMPS * max(float(np.max(each, initial=0.0)) for each in rates)
+        return [c for c, jump in zip(self.followed.changes, jumps, strict=True) if jump > least]
 
     @cached_property
     def turns(self) -> Counted:

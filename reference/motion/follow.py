@@ -361,6 +361,24 @@ def inside(step: Step, probe: Method) -> Within:
     return state
 
 
+def rows_at(system: System, followed: Followed, times: Array) -> list[Kept]:
+    """Returns the states at any times [s] of a motion, each by a step from the last one before it.
+
+    On an event that is the state after it.
+    """
+    march, begins = followed.march, np.array([t for t, _, _ in followed.march])
+    rows = list[Kept]()
+    for t in times.tolist():
+        t0, phase, y = march[int(np.searchsorted(begins, t, side="right")) - 1]
+        if t > t0:
+            mode = system.modes[followed.phases[phase]]
+            probe = either(mode, slope(mode), len(y))
+            step = Step(t0, y, t - t0, math.inf, y, 0, np.zeros(len(y)))
+            y = inside(step, probe)(t - t0)
+        rows.append((t, phase, y))
+    return rows
+
+
 # Where steps end: at samples, at corners of what is given in time, and often enough.
 
 

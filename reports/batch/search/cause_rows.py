@@ -8,7 +8,7 @@ from itertools import takewhile
 from ....engines.engine import Cost, Tunable
 from ....engines.knobs import Options, as_text
 from ...compare.trial.start import first
-from ...data.row import Cause, Comparison, StepError, as_written
+from ...data.row import Cause, Comparison, Rungs, StepError, as_written
 from ..tasks import Pair
 from .candidate import Candidate
 from .change import STEP, Field
@@ -72,13 +72,14 @@ def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
 def by_ladder(
     rows: Sequence[Comparison],
     steps: Sequence[StepError],
+    ladders: Sequence[Rungs],
     own: Callable[[Comparison], Options],
 ) -> Iterator[Cause]:
     """The step, where a row's own ladder knows one that is small enough.
 
     own: the options of the row's setting.
     """
-    for row, step, error in usable(rows, steps):
+    for row, step, error in usable(rows, steps, ladders):
         yield replace(
             without(row, STEP.words),
             options=as_text(own(row)),
@@ -105,19 +106,25 @@ def without(row: Comparison, words: str) -> Cause:
 
 
 def usable(
-    rows: Sequence[Comparison], steps: Sequence[StepError]
+    rows: Sequence[Comparison], steps: Sequence[StepError], ladders: Sequence[Rungs]
 ) -> Iterator[tuple[Comparison, float, float]]:
     """Rows with the largest step [s] from which on their held ladder keeps what is allowed, and
-    the error there; those that have one."""
+    the error there; those that have one.
+
+    Of what strikes that is smaller than the errors say, which are those of one start.
+    """
+    largest = {_at(rung): rung.usable_step or 0.0 for rung in ladders if rung.ladder == "held"}
     held: dict[tuple[str, ...], list[StepError]] = {}
     for one in steps:
-        if one.ladder == "held":
-            key = one.case, one.engine, one.setting, one.realised, one.quantity
-            held.setdefault(key, []).append(one)
+        if one.ladder == "held" and one.step <= largest.get(_at(one), 0.0):
+            held.setdefault(_at(one), []).append(one)
     for row in rows:
-        key = row.case, row.engine, row.setting, row.realised, row.quantity
-        if kept := _kept(held.get(key, ()), row.allowed or 0.0):
+        if kept := _kept(held.get(_at(row), ()), row.allowed or 0.0):
             yield row, kept[-1].step, kept[-1].error
+
+
+def _at(row: Comparison | Rungs | StepError) -> tuple[str, ...]:
+    return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
 def _kept(ladder: Sequence[StepError], allowed: float) -> list[StepError]:

@@ -64,7 +64,7 @@ def causes(
     if search:
         of = {_where_of(pair): pair for pair in pairs}
         own = lambda row: _own(of[_where(row)]) if _where(row) in of else {}  # noqa: E731
-        found |= {key_of(cause): [cause] for cause in by_ladder(left, steps, own)}
+        found |= {key_of(cause): [cause] for cause in by_ladder(left, steps, ladders, own)}
         words = _words(left, pairs, results)
         moved = _moved(comparisons, known) if known else set[tuple[str, str]]()
         same = [row for row in left if (row.case, row.engine) not in moved]
@@ -160,7 +160,8 @@ def _searched(
             continue
         levers = between(pair)
         mine = [one for one in steps if (one.case, one.engine, one.setting) == key]
-        runs = climbed(levers.base, of[key], mine)
+        strikes = pair.reference().blows.size > 0  # a ladder tells of one start alone
+        runs = {} if strikes else climbed(levers.base, of[key], mine)
         asked[name] = Unexplained(pair, levers, of[key])
         looking = cures(levers, runs, [row.quantity for row in of[key]])
         searches[name] = Search(pair, runs, looking)

@@ -11,8 +11,9 @@ from ....engines import guest
 from ....engines.engine import Plan
 from ...compare.judge import metric
 from ...compare.judge.error_instant import away_from_instants
+from ...compare.trial.phases import STARTS, Begun, Phases
 from ...compare.trial.run import Samples, climbed
-from ...compare.trial.simulate import rung
+from ...compare.trial.simulate import fairly, rung
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
 from ...compare.trial.work import pace
@@ -46,7 +47,7 @@ class Run:
     def limit(self) -> float:
         """How long the engine may take [s], and before it a reference."""
         steps = self.pair.case.duration / self.candidate.step
-        return self.pair.limit + limit(steps * pace(self.pair.case, self.pair.engine))
+        return self.pair.limit + limit(STARTS * steps * pace(self.pair.case, self.pair.engine))
 
 
 def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:
@@ -65,12 +66,28 @@ def trial_of(pair: Pair, candidate: Candidate) -> Trial | None:
 
 
 def errors(run: Run) -> Errors:
-    """The errors of everything that is judged; the pair's reference comes from the store."""
-    case, trial = run.pair.case, trial_of(run.pair, run.candidate)
-    samples = climbed(rung(trial, run.candidate.step)) if trial else ""
+    """The errors of everything that is judged, of the worst start within a step.
+
+    The pair's reference comes from the store.
+    """
+    trial, step = trial_of(run.pair, run.candidate), run.candidate.step
+    samples = climbed(rung(trial, step)) if trial else ""
     if trial is None or isinstance(samples, str):
         return {}
-    found = {name: _off(trial, name, samples) for name in judged_names(case)}
+    worst = _errors(run, Begun(trial, fairly(trial, samples, step)))
+    for later in Phases(trial).at(step):
+        other = {} if isinstance(later, str) else _errors(run, later)
+        worst = {
+            name: (max(worst[name][0], other[name][0]), max(worst[name][1], other[name][1]))
+            for name in worst
+            if name in other
+        }
+    return worst
+
+
+def _errors(run: Run, begun: Begun) -> Errors:
+    trial, samples = begun
+    found = {name: _off(trial, name, samples) for name in judged_names(run.pair.case)}
     elsewhere = away_from_instants(replace(trial, engine=run.pair.engine))
     return {
         name: (_ratio(trial, name, off), _ratio(trial, name, off[elsewhere]))
@@ -99,7 +116,7 @@ def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
         wanted = wanted[timing.partners(event, samples[f"{event}.time"])]
     if count != len(wanted):  # another count: which belongs to which?
         return np.array([inf])
-    return metric.sizes(trial.read(name, samples[name]) - wanted)
+    return metric.sizes(samples[name] - wanted)
 
 
 def _ratio(trial: Trial, name: str, off: Array) -> float:

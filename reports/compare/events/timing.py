@@ -3,7 +3,7 @@
 Every rung of every engine asks the same, so that it is computed once for all of them.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,16 +13,26 @@ from numpy.typing import NDArray
 from ....cases.case import Case, Event
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
+from ....reference.solve import motion_of
 from .times import Known, jumped, nearest, reading, reference_events, surely
 
 
 @dataclass(frozen=True)
 class Timing:
-    """The events of a scene in the record of its reference; without a record there are none."""
+    """The events of a case in the record of its reference; without a record there are none."""
 
-    scene: Scene
-    named: Mapping[str, Event]
+    case: Case
     record: Trajectory | None
+
+    @property
+    def scene(self) -> Scene:
+        """The case's scene."""
+        return self.case.scene
+
+    @property
+    def named(self) -> Mapping[str, Event]:
+        """The case's events by name."""
+        return self.case.events
 
     @cached_property
     def events(self) -> dict[str, Array]:
@@ -82,6 +92,21 @@ class Timing:
         }
 
     @cached_property
+    def motion(self) -> Callable[[Array], Trajectory]:
+        """The reference's motion at any times [s] up to its end."""
+        return motion_of(self.case)
+
+    @cached_property
+    def around(self) -> dict[tuple[float, tuple[float, ...]], Trajectory]:
+        """The reference around impacts, by the step and the impacts [s], as far as asked for."""
+        return {}
+
+    @cached_property
+    def later(self) -> "dict[float, tuple[Case, Trajectory, Timing]]":
+        """The case from a time [s] on, its motion and events, as far as that was asked for."""
+        return {}
+
+    @cached_property
     def _sure(self) -> dict[tuple[str, float], NDArray[np.int64]]:
         return {}
 
@@ -92,4 +117,4 @@ class Timing:
 
 def timing(case: Case, reference: Trajectory) -> Timing:
     """The timing of a case's events in its reference."""
-    return Timing(case.scene, case.events, reference.record)
+    return Timing(case, reference.record)

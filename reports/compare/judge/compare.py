@@ -1,13 +1,12 @@
 """A trial's rows: audit, ladders, and a verdict for every observed quantity."""
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ....cases.trajectory import Array
 from ....engines import SETTINGS
 from ....engines.engine import Refusal
 from ...data.row import (
@@ -27,13 +26,15 @@ from ...data.row import (
 from ...system.table_text import why
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
+from ..trial.phases import Begun, Phases
 from ..trial.run import Climbed, Samples
-from ..trial.simulate import Runs, simulate
+from ..trial.simulate import Runs, fairly, simulate
 from ..trial.trial import Trial, judged_names
 from . import instants, metric
 from .cause import cause
 from .convergence import Convergence, study
-from .error_instant import moment
+from .error_instant import away_from_instants, moment
+from .instants import Study
 from .metric import floor, round_to_floor
 from .rows import judged, row, rungs, steps
 from .verdict import verdict
@@ -68,8 +69,16 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     runs = runs or simulate(trial)
     if runs.judged is None:
         return Outcome(rows + _diverged(trial, (*motion, *events), runs.lost))
+    phases = Phases(trial)
+    later = phases.at(trial.step)
+    if lost := [run for run in later if isinstance(run, str)]:
+        why = f"begun a part of a step later: {lost[0]}"
+        return Outcome(rows + _diverged(trial, (*motion, *events), why))
+    begun = [Begun(trial, fairly(trial, runs.judged, trial.step))]
+    begun += [run for run in later if not isinstance(run, str)]
+    trial = replace(trial, starts=len(begun))
     moments: dict[str, str] = {}
-    rows += [_judged(trial, name, runs, runs.judged[name], moments) for name in motion]
+    rows += [_judged(trial, name, runs, _worst(begun, name), moments) for name in motion]
     studies = [
         (ladder, name, found)
         for ladder, climbed in runs.ladders.items()
@@ -77,8 +86,10 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
         for name in motion
         for found in [_study(trial, ladder, runs, name)]
     ]
-    told, of_events = instants.judge(trial, events, runs, runs.judged)
+    told, of_events = instants.judge(trial, events, runs, begun)
     studies += of_events
+    if phases.moved:
+        studies = list(_over_phases(studies, trial, runs, phases))
     moments |= {name: words for name in events if (words := instants.spread(trial, name))}
     listed = instants.listed(trial, runs.judged)
     wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
@@ -154,28 +165,67 @@ def _audit(trial: Trial) -> Comparison:
 
 
 def _judged(
-    trial: Trial, name: str, runs: Runs, samples: Array, moments: dict[str, str]
+    trial: Trial, name: str, runs: Runs, worst: Begun, moments: dict[str, str]
 ) -> Comparison:
-    """The quantity's row; if it is off at an instant, that is noted too."""
-    wanted, ladders = trial.wanted(name), list(runs.ladders)
+    """The quantity's row, of the worst start; if it is off at an instant, that is noted too."""
+    samples, wanted, ladders = worst.samples[name], worst.trial.wanted(name), list(runs.ladders)
     held = _study(trial, ladders[-1], runs, name)
     # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
     tuned = _study(trial, ladders[0], runs, name) if len(ladders) > 1 else held
     error = metric.error(samples, wanted)
     why = cause(_telling(trial, name, runs, error.largest, held), runs.finer, trial.plan.simplified)
-    at = moment(trial, samples, wanted, error)
+    at = moment(worst.trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
         rest = metric.error(samples[at.elsewhere], wanted[at.elsewhere]).largest
         why = f"{at.words}; elsewhere at most {round_to_floor(rest, least):.2g}"
         moments[name] = why
         if not rest <= (trial.allowed(name) or np.inf):
-            others = _study(trial, list(runs.ladders)[-1], runs, name, at.elsewhere)
-            others = _telling(trial, name, runs, rest, others, at.elsewhere)
+            elsewhere = away_from_instants(trial)
+            others = _study(trial, ladders[-1], runs, name, elsewhere)
+            others = _telling(trial, name, runs, rest, others, elsewhere)
             why = f"{why}: {cause(others, runs.finer, trial.plan.simplified)}"
-    when = float(trial.case.times[error.at])
+    when = float(worst.trial.case.times[error.at])
     word = verdict(trial, name, error.largest, held, why, tuned)
     return judged(trial, name, word, error, when)
+
+
+def _worst(begun: Sequence[Begun], name: str) -> Begun:
+    """The start from which the quantity is farthest off; one that is not a number is farther."""
+    sizes = [metric.error(run.samples[name], run.trial.wanted(name)).largest for run in begun]
+    return begun[int(np.argmax(np.nan_to_num(sizes, nan=np.inf)))]
+
+
+def _over_phases(
+    studies: Sequence[Study], trial: Trial, runs: Runs, phases: Phases
+) -> Iterator[Study]:
+    """Yields the studies, each usable up to the largest step at which every start keeps the bound.
+
+    Smaller steps are known to keep it from one start, and are not asked of the others.
+    """
+    for ladder, name, found in studies:
+        kept, climbed = ladder.plan(trial.plan).kept, runs.ladders[ladder]
+        steps = [h for h in sorted(climbed) if h <= (found.usable_step or 0.0)]
+        begun = ((h, [Begun(trial, climbed[h]), *phases.at(h, kept)]) for h in reversed(steps))
+        usable = next((h for h, starts in begun if _keep(name, starts, h)), None)
+        yield ladder, name, replace(found, usable_step=usable)
+
+
+def _keep(name: str, begun: Sequence[Begun | str], step: float) -> bool:
+    """Whether all these runs at a step [s] keep what is allowed of the quantity."""
+    for run in begun:
+        if isinstance(run, str):
+            return False
+        trial, samples = run
+        dated = trial.quantity(name).part in trial.case.events
+        off = instants.off if dated else _off
+        if not off(trial, name, samples, step) <= (trial.allowed(name) or np.inf):
+            return False
+    return True
+
+
+def _off(trial: Trial, name: str, samples: Samples, step: float) -> float:
+    return metric.error(samples[name], trial.wanted(name)).largest
 
 
 def _telling(

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ....cases.scene.motion import Motion
@@ -15,7 +16,11 @@ from ....cases.scene.observe import observe
 from ....cases.scene.quantity import table
 from ....cases.trajectory import Array, Trajectory
 from ..trial.answers import moved
+from ..trial.impacts import BESIDE
 from ..trial.trial import Trial
+
+Rows = NDArray[np.bool_]
+"""(N,) which samples count."""
 
 # A plain number: one that a person asks for, and on which no verdict hangs.
 
@@ -60,23 +65,32 @@ def plain(trial: Trial) -> list[Plain]:
     found = trial.engine.run(
         scene, trial.start, times, trial.step, plan, reactions=wanted, record=True
     )
-    return list(numbers(scene, trial.reference, moved(found, scene, times)))
+    motion = moved(found, scene, times)
+    return list(numbers(scene, trial.reference, motion, BESIDE * trial.step))
 
 
-def numbers(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator[Plain]:
-    """Plain numbers of a motion at the reference's samples; impacts and depths in its record."""
-    yield from _energy(scene, reference, motion)
+def numbers(
+    scene: Scene, reference: Trajectory, motion: Trajectory, near: float = 0.0
+) -> Iterator[Plain]:
+    """Plain numbers of a motion at the reference's samples; impacts and depths in its record.
+
+    near [s]: so close to an impact a sample says nothing of energy, creep and friction, for one of
+    the two motions is before it and the other behind it.
+    """
+    gaps = np.abs(reference.times[:, None] - reference.blows[None, :])
+    away: Rows = np.min(gaps, axis=1, initial=np.inf) > near
+    yield from _energy(scene, reference, motion, away)
     yield from _gap(scene, motion)
     for contact in (*scene.contacts.values(), *scene.pairs.values()):
         yield from depth(scene, contact, motion)
         yield from restitution(scene, contact, reference, motion)
-        yield from friction(scene, contact, reference, motion)
+        yield from friction(scene, contact, reference, motion, away)
     for name in (*scene.contacts, *scene.pairs, *scene.joints):
         if f"{name}.slip" in table(scene):
-            yield from creep(scene, name, reference, motion)
+            yield from creep(scene, name, reference, motion, away)
 
 
-def _energy(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator[Plain]:
+def _energy(scene: Scene, reference: Trajectory, motion: Trajectory, away: Rows) -> Iterator[Plain]:
     """Yields the energy lost or gained per second, in % of the reference's largest kinetic energy.
 
     It is the slope of the line through 0 that fits best.
@@ -88,7 +102,9 @@ def _energy(scene: Scene, reference: Trajectory, motion: Trajectory) -> Iterator
         lost = _gain(scene, reference) - _gain(scene, motion)
     except KeyError:  # the inner state of a muscle that the producer does not tell
         return
-    t = motion.times
+    t, lost = motion.times[away], lost[away]
+    if not np.any(t):
+        return
     rate = 100 * float(t @ lost) / float(t @ t) / size
     yield Plain("energy lost" if rate >= 0 else "energy gained", abs(rate), "% a second")
 
@@ -113,7 +129,7 @@ def _gap(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
 # Plain numbers of contacts: how deep, how fast it creeps, what is left of friction and bounce.
 
 
-STILL = 1e-9  # m/s (rad/s): what slips less in the reference sticks there
+STILL = 1e-9  # m/s (rad/s, m): what slips less in the reference sticks there, or touches
 SLIPS = 1e-2  # of the fastest slip: near a stop friction is neither moving nor at rest
 BESIDES = 0.05  # of the fastest growth by what else acts: an engine has it by a step of its own
 
@@ -139,10 +155,12 @@ def _motion(scene: Scene, trajectory: Trajectory) -> Motion:
     return Motion(scene.bodies, scene.points, trajectory, scene.joints)
 
 
-def creep(scene: Scene, name: str, reference: Trajectory, motion: Trajectory) -> Iterator[Plain]:
+def creep(
+    scene: Scene, name: str, reference: Trajectory, motion: Trajectory, away: Rows
+) -> Iterator[Plain]:
     """The mean slip of what sticks in the reference, without the start."""
     slip = observe(scene, reference, f"{name}.slip")
-    sticks = np.abs(slip) <= STILL
+    sticks = (np.abs(slip) <= STILL) & away
     if name in (*scene.contacts, *scene.pairs):
         sticks &= np.abs(observe(scene, reference, f"{name}.gap")) <= STILL
     sticks[0] = False
@@ -153,15 +171,16 @@ def creep(scene: Scene, name: str, reference: Trajectory, motion: Trajectory) ->
 
 
 def friction(
-    scene: Scene, contact: Any, reference: Trajectory, motion: Trajectory
+    scene: Scene, contact: Any, reference: Trajectory, motion: Trajectory, away: Rows
 ) -> Iterator[Plain]:
-    """The mean of tangent over normal force while it slips in the reference."""
+    """The mean of tangent over normal force while it touches and slips in the reference."""
     names = [f"{contact.name}.{field}" for field in ("tangent", "normal")]
     if not contact.friction or not all(name in motion.reactions for name in names):
         return
     slip = np.abs(observe(scene, reference, f"{contact.name}.slip"))
     along, normal = (motion.reactions[name] for name in names)
-    slides = (slip > max(STILL, SLIPS * float(np.max(slip)))) & (normal > 0)
+    touches = np.abs(observe(scene, reference, f"{contact.name}.gap")) <= STILL
+    slides = (slip > max(STILL, SLIPS * float(np.max(slip)))) & (normal > 0) & touches & away
     slides[0] = False
     if np.any(slides):
         found = float(np.mean(np.abs(along[slides]) / normal[slides]))

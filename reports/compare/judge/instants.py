@@ -1,6 +1,6 @@
 """The events of a trial: rows for their times and counts, and the list of all instants."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import zip_longest
 
 import numpy as np
@@ -11,6 +11,7 @@ from ....cases.trajectory import Array, Trajectory
 from ...data.row import REFUSED, UNSETTLED, Comparison, Instant
 from ..events.times import reference_events
 from ..trial.ladder import Ladder
+from ..trial.phases import Begun
 from ..trial.run import Samples
 from ..trial.simulate import Runs
 from ..trial.trial import Trial
@@ -32,9 +33,13 @@ LATER = "say so by `tube`, as `tube: 2 ms` at the top of the file: it is then re
 
 
 def judge(
-    trial: Trial, names: tuple[str, ...], runs: Runs, samples: Samples
+    trial: Trial, names: tuple[str, ...], runs: Runs, begun: Sequence[Begun]
 ) -> tuple[list[Comparison], list[Study]]:
-    """Rows of `event.time`, `event.count` and states at events, and what ladders say of them."""
+    """Rows of `event.time`, `event.count` and states at events, and what ladders say of them.
+
+    begun: the judged run, and those begun later within a step; the worst is told.
+    """
+    samples = begun[0].samples
     rows: list[Comparison] = []
     studies: list[Study] = []
     for name in names:
@@ -43,16 +48,33 @@ def judge(
             why = "adapter: its quantity is not kept for every step"
             rows.append(row(trial, name, REFUSED, because=why))
         elif field == "count":
-            rows.append(_count(trial, event, samples[f"{event}.time"]))
+            worst = max(begun, key=lambda run: _miscounted(*run, event))
+            rows.append(_count(trial, event, worst))
         else:
-            rows.append(_each(trial, name, samples, runs))
+            worst = max(begun, key=lambda run: _largest(*run, name))
+            rows.append(_each(trial, name, worst, runs))
             studies += _climbed(trial, name, runs)
     return rows, studies
 
 
-def _count(trial: Trial, event: str, found: Array) -> Comparison:
+def _miscounted(trial: Trial, samples: Samples, event: str) -> float:
+    return trial.timing.miscounted(event, len(samples[f"{event}.time"]), trial.step)
+
+
+def _largest(trial: Trial, samples: Samples, name: str) -> float:
+    """The largest error of those events that both have."""
+    event = trial.quantity(name).part
+    partners = trial.timing.partners(event, samples[f"{event}.time"])
+    if not len(partners):
+        return 0.0
+    found = samples[name][: len(partners)]
+    return metric.error(found, trial.wanted(name)[partners]).largest
+
+
+def _count(trial: Trial, event: str, worst: Begun) -> Comparison:
     """Whether the event happens as often as in the reference, as far as steps can tell."""
-    name, timing = f"{event}.count", trial.timing
+    name, timing = f"{event}.count", worst.trial.timing
+    found = worst.samples[f"{event}.time"]
     most = len(timing.events[event])
     least = most if len(found) == most else len(timing.surely(event, trial.step))
     off = timing.miscounted(event, len(found), trial.step)
@@ -62,16 +84,17 @@ def _count(trial: Trial, event: str, found: Array) -> Comparison:
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
 
-def _each(trial: Trial, name: str, samples: Samples, runs: Runs) -> Comparison:
+def _each(trial: Trial, name: str, worst: Begun, runs: Runs) -> Comparison:
     """Times or states in their order, as many as both have; the count is another row's matter."""
-    event, found, timing = trial.quantity(name).part, samples[name], trial.timing
+    event, samples, timing = trial.quantity(name).part, worst.samples, worst.trial.timing
+    found = samples[name]
     times, partners = timing.events[event], timing.partners(event, samples[f"{event}.time"])
     both = len(partners)
     if not both:
         told = not len(times) or len(timing.surely(event, trial.step))
         why = NEVER if told else TOO_SHORT.format(trial.step)
         return row(trial, name, REFUSED, because=why)
-    error = metric.error(found[:both], trial.wanted(name)[partners])
+    error = metric.error(found[:both], worst.trial.wanted(name)[partners])
     climbs = list(_climbed(trial, name, runs))
     held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
     why = cause(held, runs.finer, trial.plan.simplified)
@@ -96,22 +119,26 @@ def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
 
     They compare the events that the largest step of all can tell, or else the first.
     """
-    wanted, event, timing = trial.wanted(name), trial.quantity(name).part, trial.timing
     for ladder, climbed in runs.ladders.items():
         first = _first(trial, name, climbed)
-
-        def off(h: float, samples: Samples, first: int = first) -> float:
-            found = samples[name]
-            sure = len(timing.surely(event, h)) if len(found) < len(wanted) else 0
-            least = max(first, sure)
-            if not least <= len(found) <= len(wanted):
-                return np.inf
-            partners = timing.partners(event, samples[f"{event}.time"])[:first]
-            return metric.error(found[:first], wanted[partners]).largest
-
-        errors = {h: off(h, samples) for h, samples in sorted(climbed.items())}
-        if errors and len(wanted):
+        errors = {h: off(trial, name, run, h, first) for h, run in sorted(climbed.items())}
+        if errors and len(trial.wanted(name)):
             yield ladder, name, instants(errors, trial.allowed(name) or np.inf)
+
+
+def off(trial: Trial, name: str, samples: Samples, step: float, first: int = 0) -> float:
+    """Returns the largest error of the first events, inf where they happen more or less often.
+
+    Of those, where their number is not given, that steps [s] of this size have to tell.
+    """
+    wanted, event, timing = trial.wanted(name), trial.quantity(name).part, trial.timing
+    found, first = samples[name], first or max(1, len(timing.surely(event, step)))
+    sure = len(timing.surely(event, step)) if len(found) < len(wanted) else 0
+    least = max(first, sure)
+    if not least <= len(found) <= len(wanted):
+        return np.inf
+    partners = timing.partners(event, samples[f"{event}.time"])[:first]
+    return metric.error(found[:first], wanted[partners]).largest
 
 
 def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:

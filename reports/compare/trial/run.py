@@ -78,7 +78,10 @@ def climbed(rung: Rung) -> Climbed:
 
 
 def _run(rung: Rung) -> Samples:
-    case, scene = rung.case, rung.case.scene
+    case, late, scene = rung.case, rung.case.late, rung.case.scene
+    # An engine starts at 0, whenever that is.
+    acting = scene.later(late) if late else scene
+    case = replace(case, late=0.0) if late else case
     wanted = dict.fromkeys((*rung.bounds, *told_by(case.events, case.allow)))
     run = partial(
         rung.engine.run,
@@ -89,17 +92,26 @@ def _run(rung: Rung) -> Samples:
         case,
         # A copy: an engine that changes what it is given must not change what it is asked for.
         lambda times: moved(
-            run(scene, rung.start, times.copy(), rung.step, rung.plan), scene, times
+            run(acting, rung.start, times.copy(), rung.step, rung.plan), scene, times
         ),
         rung.step,
         rung.fastest,
     )
+    trajectory = _later(trajectory, late)
     samples = {name: observe(scene, trajectory, name) for name in rung.bounds}
     for name, most in rung.bounds.items():
         if not np.all(np.abs(samples[name]) < most):
             raise Diverged(f"{name} reaches {np.max(np.abs(samples[name])):.1g}")
     poses = sample_columns(trajectory) if rung.poses else {}
     return {**samples, **poses, **_events(rung, trajectory)}
+
+
+def _later(trajectory: Trajectory, late: float) -> Trajectory:
+    """The trajectory, each time [s] so much later."""
+    if not late:
+        return trajectory
+    record = trajectory.record and _later(trajectory.record, late)
+    return replace(trajectory, times=trajectory.times + late, record=record)
 
 
 def sample_columns(trajectory: Trajectory) -> Samples:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .impacts import beside, fair
 from .ladder import Ladder, ladders
 from .run import Climbed, Rung, Samples, climbed
 from .trial import Trial
@@ -17,7 +18,7 @@ At = tuple[str, float]
 
 @dataclass(frozen=True)
 class Runs:
-    """Samples and `event.time`s, of the judged step and by ladder and step.
+    """Samples and `event.time`s, of the judged step as read, by ladder and step as compared.
 
     lost: why the judged step has none. finer: why a smaller one has none, if it is a user's own.
     """
@@ -83,11 +84,18 @@ def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
                 elif h == trial.step:
                     lost = lost or samples
             else:
-                samples = {name: trial.read(name, rows) for name, rows in samples.items()}
-                kept[ladder][h] = samples
+                kept[ladder][h] = fairly(trial, samples, h)
                 if h == trial.step and len(kept) == 1:  # the plan's first ladder is judged
-                    judged = samples
+                    judged = {name: trial.read(name, rows) for name, rows in samples.items()}
     return Runs(judged, kept, lost, finer)
+
+
+def fairly(trial: Trial, samples: Samples, step: float) -> Samples:
+    """Returns a run's samples at a step [s] as they are compared: beside impacts fairly."""
+    read = {name: trial.read(name, rows) for name, rows in samples.items()}
+    near = beside(trial, step)
+    motion = {name: fair(trial, name, read[name], step) for name in trial.motion} if near else {}
+    return {**read, **motion}
 
 
 def simulate(trial: Trial) -> Runs:

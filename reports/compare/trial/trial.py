@@ -68,6 +68,7 @@ class Trial:
     way: Plan | Refusal
     sampled: bool = False  # the case's samples are not its own: the engine's step misses those
     timed: Timing | None = None  # of the same reference
+    starts: int = 1  # parts of a step at which it begins, of which the worst is judged
 
     @property
     def realised(self) -> Realised:
@@ -203,7 +204,8 @@ class Trial:
         """Says what is done to start and readout, and the samples where they are not the case's."""
         base, n = self.plan.protocol(self.step), self.case.samples
         own = f"{n} samples at whole steps of its own" if self.sampled else ""
-        return "; ".join(part for part in (base, own) if part)
+        phases = f"the worst of {self.starts} starts within a step" if self.starts > 1 else ""
+        return "; ".join(part for part in (base, own, phases) if part)
 
     @property
     def start(self) -> Start:

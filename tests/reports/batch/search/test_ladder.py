@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from given.lines import LADDER
 from given.otherwise import otherwise
 
 from textmech.reports.batch.search import cause_rows as told
@@ -50,8 +51,12 @@ def test_what_it_does_not_tell_is_run(steps: list[StepError]) -> None:
     assert climbed(BASE, [ROW], steps) == {}
 
 
-def enough(steps: list[StepError], module: Any = told) -> list[tuple[float, float]]:
-    return [(step, error) for _, step, error in module.usable([ROW], steps)]
+def enough(
+    steps: list[StepError], module: Any = told, largest: float | None = 2e-3
+) -> list[tuple[float, float]]:
+    """largest: the step up to which the ladder is usable, whatever its errors are."""
+    rung = replace(LADDER, case="b", quantity="x", usable_step=largest)
+    return [(step, error) for _, step, error in module.usable([ROW], steps, [rung])]
 
 
 @pytest.mark.mutant("a lucky step above one that is beyond is small enough")
@@ -64,3 +69,11 @@ def test_the_step_that_is_small_enough() -> None:
     assert enough(lucky) == [(5e-4, 1.0)]
     hasty = otherwise(told, "takewhile(lambda one:", "filter(lambda one:")
     assert enough(lucky, hasty) == [(2e-3, 0.0)]
+
+
+@pytest.mark.mutant("one start within a step tells that a step is small enough")
+def test_of_what_strikes_every_start_has_to_keep_it() -> None:
+    assert enough(STEPS, largest=5e-4) == [(5e-4, 1.0)]
+    assert enough(STEPS, largest=None) == []
+    lucky = otherwise(told, " and one.step <= largest.get(_at(one), 0.0)", "")
+    assert enough(STEPS, lucky, largest=5e-4) == [(1e-3, 2.0)]
