@@ -215,6 +215,38 @@ class Tunable(Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Shape:
+    """What stands for a scene in a user's model, and the own options that build it.
+
+    held: whether recipes have to hold on it, too; else they are measured on it.
+    """
+
+    words: str
+    options: Options
+    held: bool = True
+
+
+@runtime_checkable
+class Plain(Protocol):
+    """An optional extension of `Tunable`: scenes with the shapes that a user has, not ours.
+
+    A recipe for contacts that holds for the points and planes of an adapter may not hold for a box:
+    advice is searched on these shapes, started as a user starts them.
+    """
+
+    def shapes(self, scene: Scene, start: Start) -> Sequence[Shape]:
+        """The shapes of a user's, on the first of which recipes are searched.
+
+        None where nothing touches, or where the adapter builds its own model only.
+        """
+        ...
+
+    def own_contacts(self, scene: Scene) -> str:
+        """How contacts are built without, where that is not as users do; empty: nothing touches."""
+        ...
+
+
 @runtime_checkable
 class Paced(Protocol):
     """An optional extension of the protocol: how long a step takes, for the limits of work."""

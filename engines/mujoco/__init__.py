@@ -11,9 +11,11 @@ import mujoco
 from ...cases.scene import Scene
 from ...cases.scene.frame import PLANE
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Cost, Plan, Realised, Refusal, Start
+from ..engine import Cost, Plan, Realised, Refusal, Shape, Start
 from ..heading import heading
 from ..knobs import Knob, Options
+from ..plain_shapes import CYLINDER, SHAPES, with_box
+from .adapter import plain_shapes
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
 from .adapter.inverse_dynamics import answered
 from .adapter.plans import plan, ways
@@ -22,6 +24,7 @@ from .adapter.run import simulate
 from .model.contact import closed, recipes, worth
 from .model.drive import controls
 from .model.force import BY_ITSELF
+from .model.number_text import attributes, of_one
 from .model.planes import met
 from .model.rods import of_scene, with_rods
 from .model.scene import mjcf
@@ -67,12 +70,18 @@ class MuJoCo:
     def _settles(self) -> bool:
         return self._tuned or bool(self.options.get("settled"))
 
+    @property
+    def _shape(self) -> str:
+        """Of a user's model, as the option `shapes` says; empty: ours."""
+        return self.options.get("shapes", "")
+
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
         scene, start = with_rods(scene, start)
         refusal = (
             unbuildable(scene)
             or unfit(self.options, list(recipes(scene)), worth(scene))
+            or (self._shape and plain_shapes.refused(scene, self._shape, self.options))
             or uncompilable(scene, start, self._plan(scene, start))
         )
         if refusal:
@@ -93,11 +102,12 @@ class MuJoCo:
         else:
             why = {"because": settings.GUIDE} if self._recommended else {}
             numbers = partial(settings.with_own, self.options, scene, start, **why)
-        return plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+        found = plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+        return plain_shapes.planned(found, scene, start, self._shape) if self._shape else found
 
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
         """See `Tunable`."""
-        scene, start = with_rods(scene, start)
+        scene, start = self._built(scene, start)
         bundles = {word: recipes(scene)[word](scene) for word in worth(scene)}
         best, lies = settings.best(scene, start), closed(scene, start)
         rubs = any(contact.friction for contact in met(scene))
@@ -105,16 +115,39 @@ class MuJoCo:
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""
-        scene, start = with_rods(scene, start)
+        scene, start = self._built(scene, start)
         return as_options(settings.best(scene, start), settled=closed(scene, start))
+
+    def _built(self, scene: Scene, start: Start) -> tuple[Scene, Start]:
+        """The scene as its numbers are chosen for: with what stands for particles or distances."""
+        return with_box(scene, start, self._shape) if self._shape else with_rods(scene, start)
 
     def cost(self, scene: Scene, start: Start) -> Cost:
         """Evaluations of the dynamics in a simulated second: steps × stages."""
         return cost
 
+    def shapes(self, scene: Scene, start: Start) -> list[Shape]:
+        """See `Plain`: a geom with a free joint; a disk that lies as a cylinder is another body."""
+        return [
+            Shape(
+                plain_shapes.words(scene, start, shape), {"shapes": shape}, held=shape != CYLINDER
+            )
+            for shape in SHAPES
+            if not plain_shapes.refused(scene, shape, {})
+        ]
+
+    def own_contacts(self, scene: Scene) -> str:
+        """See `Plain`."""
+        return plain_shapes.OURS[scene.frame] if met(scene) else ""
+
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Elements of an MJCF file in which geoms touch, as users write them."""
-        bodies = scene.bodies
+        bodies, shape = scene.bodies, options.get("shapes")
+        touching = Counter(contact.body for contact in met(scene))
+        points = max(touching.values(), default=0)
+        if shape:
+            points = plain_shapes.points(scene, shape)
+            scene, start = with_box(scene, start, shape)
         scene, start = with_rods(scene, start)
         with_own = partial(settings.with_own, scene=scene, start=start, tied_to=step)
         touches, plane = bool(worth(scene)), scene.frame is PLANE
@@ -125,14 +158,24 @@ class MuJoCo:
             options, contacts=touches, plane=plane, timed=timed, rods=rods, drives=drives
         )
         frictions = {contact.name: contact.friction for contact in met(scene)}
-        touching = Counter(contact.body for contact in met(scene))
-        points = max(touching.values(), default=0)
         return snippet(
             with_own(options), with_own({}), step, notes, frictions=frictions, points=points
         )
 
+    def _plain(self, scene: Scene, start: Start, step: float, plan: Plan) -> str:
+        """A user's model, behind what is pasted of the plan's numbers."""
+        shipped = settings.with_own({}, scene, start, step)
+        choices = plan.choices(step)
+        pasted = snippet(choices, shipped, step, [], frictions={})
+        numbers = {choice.name: choice.value for choice in choices}
+        alone = {name: attributes(numbers, of_one(name)) for name in scene.contacts}
+        return plain_shapes.plain_mjcf(scene, start, self._shape, pasted, alone)
+
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as the compiled model holds it."""
+        if self._shape:
+            plan = self._plan(scene, start)
+            return plain_shapes.measured(scene, self._plain(scene, start, NOMINAL, plan))
         built, begun = with_rods(scene, start)
         model, data = compiled(built, begun, NOMINAL, self._plan(built, begun))
         bars = built.bodies.keys() - scene.bodies
@@ -159,6 +202,9 @@ class MuJoCo:
         """The MJCF file with its start as a keyframe, headed by comments, and shapes to be seen."""
         runs = f"{round(duration / step)} steps are {duration:g} s"
         begins = f"the start is its keyframe: mj_resetDataKeyframe(model, data, 0); {runs}"
+        if self._shape:
+            head = commented([*heading(self, title, step, plan, {}), begins])
+            return head + self._plain(scene, start, step, plan)
         head, model = self._script(scene, start, step, plan, title=title)
         return head + commented([begins]) + drawn(model, *with_rods(scene, start))
 
@@ -188,6 +234,10 @@ class MuJoCo:
         record: bool = False,
     ) -> Trajectory:
         """The motion, stepped by `mj_step(model, data, n)` between samples or steps."""
+        if self._shape:
+            text = self._plain(scene, start, step, plan)
+            wanted = tuple(name for name in reactions if name not in plan.withheld)
+            return plain_shapes.run(scene, start, times, self._shape, text, wanted, record=record)
         built, begun = with_rods(scene, start)
         with lent(built, begun, step, plan, settles=self._settles) as (model, data):
             found = simulate(

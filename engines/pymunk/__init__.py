@@ -9,16 +9,19 @@ import pymunk
 
 from ...cases.scene import Scene
 from ...cases.trajectory import Array, Trajectory
-from ..engine import Cost, Plan, Realised, Refusal, Start
+from ..engine import Cost, Plan, Realised, Refusal, Shape, Start
 from ..heading import heading
 from ..knobs import Knob, Options
+from ..plain_shapes import CUBE, PLAIN, known_of, with_box, without_box
 from .adapter import plans
 from .adapter.claims import answered
+from .adapter.plain_shapes import OURS, planned, refused, words
 from .adapter.plans import numbers_by_name
 from .adapter.refuse import not_native, unbuildable
 from .adapter.script import text
 from .callbacks.cut import cuts
 from .callbacks.point_forces import states
+from .model.plain_shapes import SHAPES
 from .read.health import Left
 from .read.measure import measured
 from .read.record import Record
@@ -58,7 +61,8 @@ class Pymunk:
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; if tuned, dampers and dry friction also by their laws, edges by a driver."""
-        refusal = unbuildable(scene)
+        shape = self._shape
+        refusal = unbuildable(scene) or (shape and refused(scene, shape, self.options))
         if refusal:
             return [Refusal("native", refusal)]
         without = [Refusal("native", why) for why in not_native(scene, start)]
@@ -67,10 +71,8 @@ class Pymunk:
         ways = plans.ways(scene, start) if self._tuned else ("native",)
         numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
         shipped = self.setting == "shipped"
-        return [
-            *without,
-            *(plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways),
-        ]
+        found = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
+        return [*without, *(planned(one, scene, start, shape) if shape else one for one in found)]
 
     def pace(self, scene: Scene) -> float:
         """See `Paced`; measured on chains: sweeps grow by the square of the joints."""
@@ -93,6 +95,23 @@ class Pymunk:
         """See `Tunable`."""
         return cost(scene, start)
 
+    def shapes(self, scene: Scene, start: Start) -> list[Shape]:
+        """See `Plain`: a `Poly` or a `Circle`."""
+        return [
+            Shape(words(scene, start, shape), {"shapes": shape})
+            for shape in (PLAIN, CUBE)
+            if not refused(scene, shape, {})
+        ]
+
+    @property
+    def _shape(self) -> str:
+        """Of a user's script, as the option `shapes` says; empty: ours."""
+        return self.options.get("shapes", "")
+
+    def own_contacts(self, scene: Scene) -> str:
+        """See `Plain`."""
+        return OURS if scene.pressed else ""
+
     def snippet(self, scene: Scene, start: Start, options: Options, step: float) -> str:
         """Lines of Python for a script with a `space`, as users write it."""
         timed = any(law.law != "constant" for law in scene.laws())
@@ -100,7 +119,10 @@ class Pymunk:
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
         """Physics as pymunk's objects hold it, with which no number of a setting has to do."""
-        return measured(build(scene, start, {}, "native"))
+        if not self._shape:
+            return measured(build(scene, start, {}, "native"))
+        world = build(*with_box(scene, start, self._shape), {SHAPES: self._shape}, "native")
+        return known_of(scene, measured(world))
 
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
@@ -122,6 +144,8 @@ class Pymunk:
         numbers = numbers_by_name(plan.choices(step))
         options = self.recipe(scene, start) if self._tuned and plan.realised == "native" else {}
         head = heading(self, title, step, plan, options)
+        if self._shape:
+            scene, start = with_box(scene, start, self._shape)
         return text(scene, start, step, numbers, head, duration)
 
     def run(
@@ -138,11 +162,14 @@ class Pymunk:
         """The motion, by `space.step(h)` between samples; once more where the floor was short."""
         numbers = numbers_by_name(plan.choices(step))
         wanted = tuple(name for name in reactions if name not in plan.withheld)
-        again = partial(_run, scene, start, times, step, plan.realised, wanted, record)
+        shape = self._shape
+        built, begun = with_box(scene, start, shape) if shape else (scene, start)
+        again = partial(_run, built, begun, times, step, plan.realised, wanted, record)
         try:
-            return again(numbers)
+            motion = again(numbers)
         except Left:
-            return again(numbers | {"ground.reach": FAR})
+            motion = again(numbers | {"ground.reach": FAR})
+        return without_box(scene, motion, shape) if shape else motion
 
 
 def _run(

@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from typing import Any
 
 from ...cases.case import Case
 from ...cases.language.check.cost import LIMIT
@@ -11,6 +12,7 @@ from ...cases.mistake import CaseError
 from ...cases.trajectory import Trajectory
 from ...engines import guest
 from ...engines.engine import Engine, Plan, Realised, Refusal
+from ...engines.knobs import Options
 from ...reference.solve import Solution, solve
 from ..compare.events.timing import Timing, timing
 from ..compare.judge.compare import Outcome, answered, compare
@@ -31,12 +33,16 @@ Way = Plan | Refusal
 
 @dataclass(frozen=True)
 class Pair:
-    """An engine and a case, whose reference lies in the store under its key."""
+    """An engine and a case, whose reference lies in the store under its key.
+
+    shapes: own options of the engine under which a search tries all others: see `Plain`.
+    """
 
     case: Case
     engine: Engine
     store: Store
     key: str
+    shapes: Options = field(default_factory=dict[str, Any])
 
     @property
     def name(self) -> str:

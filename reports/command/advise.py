@@ -82,7 +82,9 @@ def advise(
 
     First what a person sees: energy lost, gaps, creep. Then for each engine two recipes, which may
     be one: the fewest changed options, and the cheapest. Both keep every quantity within its
-    tolerance with a margin, at their step and at the next finer one, and wherever a loop is cut.
+    tolerance with a margin, at their step and at the next finer one, and wherever a loop is cut; a
+    body on planes is a box or a ball of your own model there, started as you start it, and not our
+    points and margins.
     With each what it costs beside the shipped setting, and what to paste: into a model or script of
     your own, and as a file of --settings. Then how cost falls with error over all that was tried.
     Where nothing does it, what remains.

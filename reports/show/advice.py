@@ -8,6 +8,7 @@ import numpy as np
 from ...engines.engine import Diverged, Tunable
 from ...engines.knobs import as_text
 from ..batch.advice.advice_rows import BOTH, Advised, rows, settings, words
+from ..batch.advice.real_shapes import ours_alone
 from ..batch.advice.recipe import Recipe, front
 from ..batch.search.candidate import Candidate
 from ..batch.search.errors import trial_of
@@ -30,12 +31,17 @@ def advice_lines(one: Advised) -> Iterator[str]:
     if one.kitchen is None:
         yield f"  refused: {rows(one)[0].remains}"
         return
+    yield from _measured_on(one)
     yield f"  as shipped, {milliseconds(one.shipped.step)}"
     yield from _found(one, one.shipped)
     if one.recipes is None:
         yield f"  no recipe: {rows(one)[0].remains}"
         if ours := " and ".join(one.kitchen.menu.ours):
             yield f"    not tried, for it takes our adapter, as `run --causes` does: {ours}"
+        for candidate in one.pasted:
+            yield "  the nearest"
+            yield from _found(one, candidate)
+            yield from _paste(one, candidate)
     for place, (want, recipe) in enumerate(one.wanted):
         step = milliseconds(recipe.step)
         yield f"  {HEADS.get(want, want)}: {words(recipe.choice)}, {step}"
@@ -45,12 +51,22 @@ def advice_lines(one: Advised) -> Iterator[str]:
         yield from (f"    {line}" for line in _front(one))
 
 
+def _measured_on(one: Advised) -> Iterator[str]:
+    """Yields whose shapes the numbers belong to, where something touches."""
+    if one.shapes:
+        yield f"  measured as a user has it: {one.shapes[0].words}"
+        trial = trial_of(one.pair, one.shipped)
+        if trial and trial.withheld:
+            yield f"    {', '.join(trial.withheld)} not read there"
+    elif ours := ours_alone(one.pair.engine, one.pair.case):
+        yield f"  measured in our model alone, where {ours}"
+
+
 def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
     assert one.kitchen is not None
-    engine, scene, candidate = one.pair.engine, one.pair.case.scene, recipe.candidate
-    assert isinstance(engine, Tunable)
+    candidate = recipe.candidate
     yield from _found(one, candidate)
-    if candidate in (cut := one.kitchen.bar.elsewhere):
+    if candidate in (cut := one.kitchen.bar.elsewhere) and not one.shapes:
         yield f"    with the loop cut at other joints at most {factor(cut[candidate])}"
     cost = one.kitchen.cost(candidate) / one.kitchen.cost(one.shipped)
     measured = ratio(one.pair, candidate, one.shipped)
@@ -58,12 +74,23 @@ def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
     yield f"    costs ×{cost:.2g} of shipped{beside}"
     if one.draws:
         yield f"    {one.draws[place]}"
+    yield from _paste(one, candidate)
+
+
+def _paste(one: Advised, candidate: Candidate) -> Iterator[str]:
+    """Yields what it gives on the other shapes that a user may have, and what to paste."""
+    engine, scene = one.pair.engine, one.pair.case.scene
+    assert isinstance(engine, Tunable)
+    for shape, worst, quantity in one.beside.get(candidate, ()):
+        lost = f"{quantity} {factor(worst)}" if quantity else "every quantity is lost"
+        yield f"    where {shape}: {lost}"
     yield "    to paste"
     start = first(one.pair.reference())
-    lines = engine.snippet(scene, start, candidate.options, candidate.step).rstrip().splitlines()
+    options = candidate.on(one.pair.shapes).options
+    lines = engine.snippet(scene, start, options, candidate.step).rstrip().splitlines()
     yield from (f"      {line}" for line in lines)
     yield "    as a file of --settings"
-    yield f"      {settings(engine.name, candidate)}"
+    yield f"      {settings(one.pair, candidate)}"
 
 
 def _found(one: Advised, candidate: Candidate) -> Iterator[str]:

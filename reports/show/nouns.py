@@ -29,8 +29,10 @@ from ...engines.engine import (
     Engine,
     Maker,
     Paced,
+    Plain,
     Plan,
     Refusal,
+    Shape,
     Tunable,
 )
 from .table import markdown
@@ -44,9 +46,9 @@ PARTS: Mapping[str, tuple[type, ...]] = {
     "Constraints": (Edge,),
     "Forces": NOUNS,
     "Laws in time": (Signal,),
-    "What an engine answers with": (Plan, Choice, Refusal, Trajectory),
+    "What an engine answers with": (Plan, Choice, Refusal, Shape, Trajectory),
     "Quantities": (Quantity,),
-    "The engine": (Maker, Engine, Tunable, Claims, Paced),
+    "The engine": (Maker, Engine, Tunable, Plain, Claims, Paced),
 }
 """What stands in which section."""
 TOLD = ("Scene", "Body", "Contact", "Pair", "Joint")

@@ -12,7 +12,7 @@ import pytest
 from textmech.cases.scene import Scene, shape
 from textmech.cases.scene.states import MASS_MATRIX
 from textmech.cases.trajectory import Trajectory
-from textmech.engines.engine import Diverged
+from textmech.engines.engine import Diverged, Shape
 from textmech.engines.knobs import Knob
 from textmech.reports.compare.trial import work
 from textmech.reports.compare.trial.answers import BadAnswer, claimed, moved, tunable
@@ -138,6 +138,38 @@ def test_sound_words_on_tuning_are_believed() -> None:
 )
 def test_words_on_tuning_are_looked_at(wrong: dict[str, Any], what: str) -> None:
     engine: Any = Tuned(**wrong)
+    with pytest.raises(BadAnswer, match=what):
+        tunable(engine, SCENE, {})
+
+
+@dataclass
+class Shaped(Tuned):
+    """One that tells the shapes of a user's too."""
+
+    shapes_: Any = ()
+    words_: Any = ""
+
+    def shapes(self, *_: Any) -> Any:
+        return self.shapes_
+
+    def own_contacts(self, *_: Any) -> Any:
+        return self.words_
+
+
+@pytest.mark.mutant("shapes that are none believed")
+@pytest.mark.parametrize(
+    ("wrong", "what"),
+    [
+        ({"shapes_": None}, "shapes should be a list of shapes, is None"),
+        ({"shapes_": ["box"]}, "shapes should be a list of shapes"),
+        ({"shapes_": [Shape("a box", object())]}, "shapes should have options as a file has them"),  # type: ignore[arg-type]
+        ({"words_": None}, "own_contacts should be text, is None"),
+    ],
+)
+def test_words_on_shapes_are_looked_at(wrong: dict[str, Any], what: str) -> None:
+    sound: Any = Shaped(shapes_=[Shape("a box", {"shapes": "box"})], words_="ours are points")
+    assert tunable(sound, SCENE, {}) == {}
+    engine: Any = Shaped(**wrong)
     with pytest.raises(BadAnswer, match=what):
         tunable(engine, SCENE, {})
 

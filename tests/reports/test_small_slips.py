@@ -196,7 +196,7 @@ def test_what_comes_too_soon_for_a_step_is_no_reproach(
 def test_counts_that_differ_are_not_equal(tmp_path: Path) -> None:
     """Of three slips such steps tell the last alone; what they tell, and misses, is counted."""
     case, record = solved(tmp_path, WEAKLY)
-    timing = Timing(case.scene, case.events, record)
+    timing = Timing(case, record)
     told = {count: timing.miscounted("loose", count, 2e-2) for count in range(6)}
     assert told == {0: 1.0, 1: None, 2: None, 3: 0.0, 4: 1.0, 5: 2.0}
     assert timing.miscounted("loose", 2, STEP) == 1.0

@@ -6,6 +6,7 @@ from typing import Any
 
 import mujoco
 
+from ...plain_shapes import SHAPES
 from ...step_scaled import FORMS, at, tied
 from ..callbacks.signal import installed, listening
 from ..model.contact import RECIPES
@@ -18,11 +19,12 @@ _WORDS = {
     "jacobian": ("dense", "sparse", "auto"),
     "solver": ("PGS", "CG", "Newton"),
     "contacts": (*dict.fromkeys(word for recipes in RECIPES.values() for word in recipes), "scene"),
+    "shapes": SHAPES,
 }
 _WHOLE = ("iterations", "ls_iterations", "noslip_iterations")
 _REAL = ("tolerance", "ls_tolerance", "noslip_tolerance", "impratio")
 FLAGS = ("diagexact",)
-PROTOCOL = ("step", "contacts", "settled")  # what stands nowhere in the file
+PROTOCOL = ("step", "contacts", "settled", "shapes")  # what stands nowhere in the file
 ELEMENTS: dict[str, dict[str, tuple[int, ...]]] = {}
 """The elements of which a user sets numbers, with how many each of their attributes takes."""
 for _group in GROUPS.values():
@@ -166,7 +168,8 @@ def _trial(options: Mapping[str, Any]) -> str:
         given = own | options.get(element, {})
         return " ".join(text(name, value) for name, value in given.items())
 
-    plain = [n for n in options if n not in (*SOFT, *ELEMENTS, *FLAGS, "contacts", "settled")]
+    named = [n for n in PROTOCOL if n != "step"]
+    plain = [n for n in options if n not in (*SOFT, *ELEMENTS, *FLAGS, *named)]
     option = " ".join(text(name, options[name]) for name in plain)
     flag = 'diagexact="enable"' if options.get("diagexact") else ""
     return f"""<mujoco><option {option}><flag {flag}/></option>

@@ -26,7 +26,11 @@ _PAIR = '<pair geom1="…" geom2="…" condim="{condim}" friction="{friction} {f
 _SOFT = 0.01  # of d: below it a contact is a spring and a damper, as in our recipes
 _POINTS = (
     "each point at which a body touches is a spring and a damper, and those of a body add up: this "
-    "is for {points} of a body, and a box geom touches a plane at four"
+    "is for {points} of a body, where a ball has one, a lying cylinder two and a box geom four"
+)
+_MARGIN = (
+    "by the margin what starts on the floor is carried from the first step on, and does not fall "
+    "freely for one"
 )
 _NEED = "; and only a pair has a solreffriction, without which the rest makes it hop"
 _PYRAMID = "with a pyramidal cone more friction makes a contact softer: this is for friction "
@@ -74,6 +78,8 @@ def snippet(
     if (pair := default.find("pair")) is not None:
         need = _NEED if _ALONE in pair.attrib else ""
         beside.append(_PAIRS.format(need=need, pairs=_pairs(frictions)))
+        if "margin" in pair.attrib:
+            beside.append(_MARGIN)
         if float(pair.get("solimp", "1").split()[0]) < _SOFT:
             beside.append(_POINTS.format(points="one" if points == 1 else points))
     pyramid = {choice.name: choice.value for choice in choices}.get("option.cone") == "pyramidal"

@@ -18,7 +18,7 @@ from pymunk.constraints import (
     SimpleMotor,
     SlideJoint,
 )
-from pymunk.shapes import Segment
+from pymunk.shapes import Circle, Segment
 
 from ....cases.scene import Anchor, Scene
 from ....cases.scene.pair import Pair
@@ -156,6 +156,9 @@ def _sweeps(world: World, numbers: Mapping[str, Any]) -> Iterator[str]:
 
 
 def seeds(world: World, start: Start, seed: float) -> list[str]:
+    """Lines that let what only touches do so a little deeper."""
+    if world.plain:
+        return ["", f"shape.unsafe_set_radius(shape.radius + {seed!r})  # or it falls for one step"]
     lines = ["", "# a circle that only touches would fall freely for one step"]
     for contact in closed(world.scene, start):
         body, wheel = _of(world, world.wheel(contact.name)), world.wheels[contact.name]
@@ -317,17 +320,20 @@ def _gap(world: World, pair: Pair, body: str, other: str) -> str:
 
 def planes(world: World, of: Of, *, reflects: bool) -> Iterator[str]:
     """The planes, and the circles that touch them."""
-    several = len(world.planes) > 1 or bool(world.pairs)
+    several = (len(world.planes) > 1 or bool(world.pairs)) and not world.plain
     for name, shape in world.planes.items():
         yield ""
         ends = f"{written(shape.a)}, {written(shape.b)}"
         yield f"plane = pymunk.Segment(ground, {ends}, 0.0)  # {name}"
         yield f"plane.friction = {shape.friction!r}"
-        if reflects or any(wheel.elasticity for wheel in world.wheels.values()):
+        if reflects or world.plain or any(w.elasticity for w in world.wheels.values()):
             yield f"plane.elasticity = {shape.elasticity!r}"
         if several:
             yield f"plane.filter = pymunk.ShapeFilter(categories={shape.filter.categories})"
         yield "space.add(plane)"
+    if world.plain:
+        yield from _plain(world, of)
+        return
     if world.planes:
         yield "wheels = {}"
     for name, wheel in world.wheels.items():
@@ -341,10 +347,23 @@ def planes(world: World, of: Of, *, reflects: bool) -> Iterator[str]:
         yield "space.add(wheel)"
 
 
+def _plain(world: World, of: Of) -> Iterator[str]:
+    """The one shape that a user has."""
+    name, shape = next(iter(world.plain.items()))
+    part = world.scene.bodies[world.scene.contacts[name].body]
+    body = of(world.wheel(name))
+    if isinstance(shape, Circle):
+        yield f"shape = pymunk.Circle({body}, {shape.radius!r})"
+    else:
+        yield f"shape = pymunk.Poly.create_box({body}, {part.size!r})"
+    yield "shape.friction = shape.elasticity = 1.0  # pymunk takes the product of both"
+    yield "space.add(shape)"
+
+
 def followers(world: World, of: Of, numbers: Mapping[str, Any]) -> Iterator[str]:
     """Keeps the circle of a turning body's point above it, see `follower`."""
     for contact in world.scene.touching.values():
-        if not is_tip(world.scene, contact):
+        if world.plain or not is_tip(world.scene, contact):
             continue
         body, (a, b) = of(world.wheel(contact.name)), world.local(contact.at)
         wheel = f"wheels[{contact.name!r}]"

@@ -1,6 +1,6 @@
 """A pymunk Space and its parts, by their names in the scene."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from pymunk.body import Body
@@ -11,7 +11,7 @@ from pymunk.constraints import (
     GrooveJoint,
     SimpleMotor,
 )
-from pymunk.shapes import Circle, Segment
+from pymunk.shapes import Circle, Poly, Segment, Shape
 from pymunk.space import Space
 
 from ....cases.scene import GROUND, Anchor, Scene, Vector
@@ -38,6 +38,7 @@ class World:
     the reaction: `blade.force`. pairs: what touches another body, and what of that it touches.
     inner: what forces with an inner state have had, at the start and in the middle of each step.
     slowed: the forces that the space's damping is.
+    plain: by contact the shape that a user has, in place of `wheels`.
     share: of a step, which the last impulses are of; less than 1 where our driver has cut it.
     """
 
@@ -60,6 +61,12 @@ class World:
     share: list[float] = field(default_factory=lambda: [1.0])
     slowed: set[str] = field(default_factory=set)
     stride: Stride | None = None
+    plain: dict[str, Circle | Poly] = field(default_factory=dict)
+
+    @property
+    def touching(self) -> Mapping[str, Shape]:
+        """By contact the shape that touches its plane."""
+        return self.plain or self.wheels
 
     def body(self, anchor: Anchor) -> Body:
         if anchor.body != GROUND:

@@ -99,7 +99,7 @@ def _way(world: World, name: str, what: str) -> Vector:
 def _contacts(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, str]]:
     """The bodies with wanted contacts, each with all of its own."""
     found: dict[Body, dict[Shape, str]] = {}
-    for name, shape in world.wheels.items():
+    for name, shape in world.touching.items():
         found.setdefault(world.wheel(name), {})[shape] = name
     return {body: names for body, names in found.items() if wanted & set(names.values())}
 

@@ -14,7 +14,7 @@ def measured(world: World) -> dict[str, float]:
         found[f"{name}.mass"] = body.mass
         if world.scene.bodies[name].turns:
             found[f"{name}.inertia"] = body.moment
-    for name, wheel in world.wheels.items():
+    for name, wheel in world.touching.items():
         plane = world.planes[world.scene.touching[name].plane.name]
         found[f"{name}.friction"] = wheel.friction * plane.friction
     for name, (touching, touched) in world.pairs.items():

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
+from ...plain_shapes import CUBE, PLAIN
+from ..model.plain_shapes import SHAPES
+
 BY_THE_SCENE = "scene"  # instead of a number: as many as the scene needs
 CONSTRAINT = ("error_bias", "max_bias")
 PROTOCOL = {
@@ -15,6 +18,7 @@ PROTOCOL = {
     "across": "slot.across",
     "reflects": "contact.reflects",
     "limit_bias": "limit.error_bias",
+    "shapes": SHAPES,
 }
 """What is done around the engine, with its name among a setting's numbers."""
 
@@ -45,7 +49,7 @@ _NUMBERS = {
     "limit_bias": _Number(0, 1, scene=True),
 }
 _SWITCHES = ("midpoint", "across", "reflects")
-_NAMES = (*_NUMBERS, *_SWITCHES)
+_NAMES = (*_NUMBERS, *_SWITCHES, "shapes")
 
 
 def full(name: str) -> str:
@@ -68,6 +72,9 @@ def _mistakes(name: str, value: Any) -> Iterator[str]:
     elif name in _SWITCHES:
         if not isinstance(value, bool):
             yield f"pymunk.{name}: should be true or false, is {value!r}"
+    elif name == "shapes":
+        if value not in (PLAIN, CUBE):
+            yield f"pymunk.shapes: should be {PLAIN} or {CUBE}, is {value!r}"
     elif not _right(name, value, _NUMBERS[name]):
         yield f"pymunk.{name}: should be {_what(name, _NUMBERS[name])}, is {value!r}"
 

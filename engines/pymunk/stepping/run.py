@@ -19,6 +19,7 @@ from ..model.contact import Tip, closed, follower, is_tip, sink, steers
 from ..model.drive import tells as turned
 from ..model.edge import driver
 from ..model.pair import closed_pairs, pair_followers, press
+from ..model.plain_shapes import swell
 from ..model.world import World
 from .scene import build
 
@@ -31,7 +32,9 @@ def placed(
 ) -> World:
     """The world where a setting starts it: wheels seeded, bodies half a step back."""
     world = build(scene, start, numbers, realised)
-    for contact in closed(scene, start):
+    if world.plain:
+        swell(world, numbers.get("start.seed", 0.0))
+    for contact in () if world.plain else closed(scene, start):
         seed = numbers.get("start.seed", 0.0)
         sink(contact, scene.bodies[contact.body], world.wheels[contact.name], seed)
     for pair in closed_pairs(scene, start):
@@ -151,7 +154,7 @@ def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
     scene = world.scene
     tips: dict[str, list[Tip]] = {}
     for contact in scene.touching.values():
-        if is_tip(scene, contact):
+        if is_tip(scene, contact) and not world.plain:
             tip = Tip(contact, scene.bodies[contact.body], world.wheels[contact.name])
             tips.setdefault(contact.body, []).append(tip)
     found = [

@@ -20,6 +20,7 @@ from ..callbacks.force import damp, limits, lines
 from ..model.contact import FLOOR_ELASTICITY, FLOOR_FRICTION, circle, closed, only, planes
 from ..model.edge import add_edges
 from ..model.pair import add_pairs
+from ..model.plain_shapes import SHAPES, add_plain_shapes
 from ..model.slot import holds_angle, line, oblique, pinned, turns
 from ..model.world import World
 
@@ -37,7 +38,7 @@ def build(scene: Scene, start: Start, numbers: Mapping[str, Any], realised: Real
     walks = stride(scene, [contact.name for contact in closed(scene, start)])
     world = World(scene, space, numbers.get("ground.reach", NEAR), stride=walks)
     _bodies(world, start)
-    _contacts(world)
+    (add_plain_shapes if SHAPES in numbers else _contacts)(world)
     _joints(world, start, across=bool(numbers.get("slot.across")))
     add_edges(world)
     limits(world)

@@ -1,9 +1,11 @@
 """Makes the rows of advice.csv from what was asked for and what was found."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from ....cases.theme import themes
-from ....engines.engine import Plan, Refusal
+from ....engines.engine import Plan, Refusal, Shape
 from ....engines.knobs import as_text
 from ...data.row import Advice
 from ...data.short_numbers import milliseconds
@@ -12,7 +14,8 @@ from ..tasks import Pair
 from .candidates import NOTHING, Choice
 from .criterion import Bar
 from .parameter_draws import Held
-from .recipe import Kitchen, Recipe, Recipes, best
+from .real_shapes import Beside
+from .recipe import Kitchen, Recipe, Recipes, best, named_options
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,8 @@ class Advised:
     kitchen: Kitchen | None
     recipes: Recipes | None
     draws: tuple[Held, ...] = ()  # of each of the two
+    shapes: Sequence[Shape] = ()  # that a user has; what is advised is measured on the first
+    beside: Beside = field(default_factory=dict[Candidate, Any])  # on the others
 
     @property
     def shipped(self) -> Candidate:
@@ -50,6 +55,14 @@ class Advised:
         if fewest.candidate == cheapest.candidate:
             return [(BOTH, fewest)]
         return [(FEWEST, fewest), (CHEAPEST, cheapest)]
+
+    @property
+    def pasted(self) -> list[Candidate]:
+        """What is to be pasted: the recipes, or where there is none the nearest of all runs."""
+        if self.kitchen is None or self.recipes is not None:
+            return [recipe.candidate for _, recipe in self.wanted]
+        nearest = best(self.kitchen)
+        return [nearest[0]] if nearest else []
 
 
 FEWEST, CHEAPEST, BOTH = "fewest changes", "cheapest", "both"
@@ -71,16 +84,16 @@ def rows(one: Advised) -> list[Advice]:
     empty = replace(empty, shipped_cost=one.kitchen.cost(one.shipped))
     if one.recipes is None:
         return [replace(empty, **_remains(one))]
-    return [_of(one.kitchen, want, recipe, empty) for want, recipe in one.wanted]
+    return [_of(one, one.kitchen, want, recipe, empty) for want, recipe in one.wanted]
 
 
-def _of(kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
+def _of(one: Advised, kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
     worst, quantity = kitchen.bar.worst(recipe.candidate)
     return replace(
         empty,
         want=want,
         recipe=words(recipe.choice),
-        settings=settings(empty.engine, recipe.candidate),
+        settings=settings(one.pair, recipe.candidate),
         step=recipe.step,
         cost=kitchen.cost(recipe.candidate),
         ratio=worst,
@@ -88,14 +101,15 @@ def _of(kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
     )
 
 
-def settings(engine: str, candidate: Candidate) -> str:
-    """A file of settings, whole, on one line."""
-    return f"{engine}: {as_text({**candidate.options, 'step': candidate.step})}"
+def settings(pair: Pair, candidate: Candidate) -> str:
+    """A file of settings, whole, on one line: with it a run has the error that is told."""
+    tried = candidate.on(pair.shapes)
+    return f"{pair.engine.name}: {as_text({**tried.options, 'step': tried.step})}"
 
 
 def words(choice: Choice) -> str:
-    """`RK4 + impratio 100`."""
-    return " + ".join(choice.words) or "as shipped"
+    """`RK4 + impratio 100`: its one name, of the engine's own options and their values."""
+    return " + ".join(named_options(choice.options)) or "as shipped"
 
 
 def _nothing(bar: Bar) -> str:
@@ -115,9 +129,15 @@ def _remains(one: Advised) -> dict[str, str | float]:
     candidate, worst, quantity = found
     told = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
     best_of = f"{told} at {milliseconds(candidate.step)}"
-    what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
+    if worst <= 1.0:
+        margin = one.asked.margin
+        but = f"within what is asked for, but not by the margin of {margin:g}"
+        what = f"{quantity} is ×{worst:.2g} {best_of}: {but}"
+    else:
+        what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
     if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
-        what = f"{quantity} is ×{worst:.2g} {best_of}, and not where a loop is cut elsewhere"
+        where = "on other shapes" if one.shapes else "where a loop is cut elsewhere"
+        what = f"{quantity} is ×{worst:.2g} {best_of}, and not {where}"
     if one.kitchen.bar.holds(candidate):
         but = "and the next finer step does not confirm it"
         what = f"{quantity} is ×{worst:.2g} {best_of}, {but}"

@@ -26,6 +26,7 @@ from .advice_rows import Advised, Requirement
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
 from .parameter_draws import tried_in_draws
+from .real_shapes import measured_beside, shapes, worst_on_shapes
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
 ZERO = 1e-9  # of `allow`: what is no larger in all the motion is nothing but rounding
@@ -63,8 +64,23 @@ def _searched(ready: Sequence[Advised], asked: Requirement, results: Results) ->
         left = {key: replace(one, recipes=answers[key]) for key, one in left.items()}
         found |= left
         worst = elsewhere({key: _asked_elsewhere(one) for key, one in left.items()}, results)
+        worst |= worst_on_shapes(
+            {key: (one.shapes, *_asked_elsewhere(one)) for key, one in left.items()}, results
+        )
         left = {key: one for key, one in left.items() if _rejected(one, worst[key])}
-    return [replace(one, recipes=None) if key in left else one for key, one in found.items()]
+    found |= {key: replace(one, recipes=None) for key, one in left.items()}
+    return _on_other_shapes(found, results)
+
+
+def _on_other_shapes(found: Mapping[str, Advised], results: Results) -> list[Advised]:
+    """Each with what its recipes do on the other shapes that a user may have."""
+    asked = {
+        key: (one.pair, one.shapes[1:], one.pasted, one.kitchen.bar.scale)
+        for key, one in found.items()
+        if one.kitchen is not None
+    }
+    beside = measured_beside(asked, results)
+    return [replace(one, beside=beside.get(key, {})) for key, one in found.items()]
 
 
 def _asked_elsewhere(one: Advised) -> tuple[Pair, list[Candidate], Mapping[str, float]]:
@@ -135,11 +151,15 @@ def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Adv
     assert own is not None  # as shipped
     steps = fitting(engine.steps, own, case.interval)
     start = first(reference)
-    knobs = engine.knobs(case.scene, start)
+    users = shapes(engine, case, start)
+    pair = replace(pair, shapes=users[0].options if users else {})
+    built = NOTHING.at(own).on(pair.shapes).engine(engine.name) if users else engine
+    assert isinstance(built, Tunable)
+    knobs = built.knobs(case.scene, start)
     ours = {
         name for knob in knobs if knob.kind == "ours" for v in knob.values for name in v.options
     }
-    tuned = {k: v for k, v in engine.recipe(case.scene, start).items() if k not in ours}
+    tuned = {k: v for k, v in built.recipe(case.scene, start).items() if k not in ours}
     withheld = [knob.tuned.words for knob in knobs if knob.kind == "ours" and knob.tuned]
     menu = Menu([knob for knob in knobs if knob.kind != "ours"], steps, own, tuned, withheld)
     bar = Bar(Known(), asked.margin, _scale(Trial(case, reference, engine, way), asked.tolerance))
@@ -149,7 +169,7 @@ def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Adv
     def cost(candidate: Candidate) -> float:
         return dear(candidate.options, candidate.step)
 
-    return Advised(pair, asked, way, Kitchen(menu, bar, cost), None)
+    return Advised(pair, asked, way, Kitchen(menu, bar, cost), None, shapes=users)
 
 
 def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:

@@ -64,7 +64,15 @@ def recipes(kitchen: Kitchen) -> Asking[Recipes | None]:
         return None
     fewest = yield from _mild(kitchen, found)
     cheapest = yield from _cheapest(kitchen, fewest)
+    if _changes(kitchen, cheapest) <= _changes(kitchen, fewest):
+        fewest = cheapest  # a knob may turn several options at once
     return Recipes(fewest, cheapest)
+
+
+def _changes(kitchen: Kitchen, recipe: Recipe) -> int:
+    """How many options a user writes, a smaller step among them."""
+    finer = recipe.step < kitchen.menu.own * (1 - WHOLE)
+    return len([*parts(recipe.choice.options)]) + finer
 
 
 def _fewest(kitchen: Kitchen) -> Asking[Recipe | None]:
@@ -150,7 +158,7 @@ def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:
     kept = whole
     for part in parts(whole.choice.options):
         options = _without(kept.choice.options, part)
-        less = Recipe(Choice(_left(options), options, kept.choice.protocol), kept.step)
+        less = Recipe(Choice(named_options(options), options, kept.choice.protocol), kept.step)
         rungs = [less.candidate, less.choice.at(less.step / 2)]
         yield rungs
         if all(kitchen.bar.holds(candidate) for candidate in rungs):
@@ -158,8 +166,8 @@ def _lean(kitchen: Kitchen, whole: Recipe) -> Asking[Recipe]:
     return kept
 
 
-def _left(options: Mapping[str, Any]) -> tuple[str, ...]:
-    """Names of the options left of a recipe, with a value where that is one number or word."""
+def named_options(options: Mapping[str, Any]) -> tuple[str, ...]:
+    """The names of options, each with its value: `pair.solref 2h 1`."""
     return tuple(_called(part, options) for part in parts(options))
 
 
@@ -169,8 +177,8 @@ def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
         value = value[name]
     if part == ("integrator",):
         return str(value)
-    alone = isinstance(value, int | float | str) and not isinstance(value, bool)
-    return f"{'.'.join(part)} {short_value(value)}" if alone else ".".join(part)
+    on = value is True
+    return ".".join(part) if on else f"{'.'.join(part)} {short_value(value)}"
 
 
 def _without(options: Mapping[str, Any], part: tuple[str, ...]) -> dict[str, Any]:

@@ -32,6 +32,10 @@ class Candidate:
         """The engine with them. Raises ValueError where it does not take them."""
         return engines.make(name, TRIED, {**self.options, "step": self.step})
 
+    def on(self, shapes: Options) -> "Candidate":
+        """The candidate with the options that build other shapes; with none itself."""
+        return Candidate.of({**self.options, **shapes}, self.step) if shapes else self
+
     def at(self, step: float) -> "Candidate":
         """The candidate with the same options at another step [s]."""
         return Candidate(self.text, step)

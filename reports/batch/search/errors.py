@@ -57,7 +57,7 @@ def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:
 
 def trial_of(pair: Pair, candidate: Candidate) -> Trial | None:
     """The candidate's native way before the pair's reference; None where it is refused."""
-    engine, reference = candidate.engine(pair.engine.name), pair.reference()
+    engine, reference = candidate.on(pair.shapes).engine(pair.engine.name), pair.reference()
     ways = planned(engine, pair.case.scene, first(reference))
     way = next(way for way in ways if way.realised == "native")
     if not isinstance(way, Plan):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Generic, TypeVar
 
 from .... import engines
-from ....engines.engine import Plan, Tunable
+from ....engines.engine import Plain, Plan, Tunable
 from ...compare.trial.answers import tunable
 from ...compare.trial.start import first
 from ...compare.trial.trial import planned
@@ -74,7 +74,8 @@ def _ask(search: Search, wanted: Iterable[Candidate], asked: _Round, results: Re
     pair = search.pair
     for candidate in wanted:
         if candidate not in search.known:
-            key = results.keys.tried(pair.case, pair.engine, candidate.text, candidate.step)
+            text = candidate.on(pair.shapes).text
+            key = results.keys.tried(pair.case, pair.engine, text, candidate.step)
             asked.runs[key] = Run(pair, candidate)
             asked.wanted.append((search.known, candidate, key))
 
@@ -98,5 +99,8 @@ def _asked(pair: Pair) -> None:
     native = any(isinstance(way, Plan) and way.realised == "native" for way in ways)
     if isinstance(engine, Tunable) and native:
         options = tunable(engine, scene, start)
+        built = engine.shapes(scene, start) if isinstance(engine, Plain) else ()
+        for shape in built:
+            Candidate.of(shape.options, engine.steps[0]).engine(engine.name)
         for step in engine.steps:
             Candidate.of(options, step).engine(engine.name)  # it takes its own recipe, and a step

@@ -12,7 +12,17 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.scene.states import MASS_MATRIX, coordinates
 from ....cases.trajectory import Array, Trajectory
-from ....engines.engine import Diverged, Engine, Plan, Realised, Refusal, Start, Tunable
+from ....engines.engine import (
+    Diverged,
+    Engine,
+    Plain,
+    Plan,
+    Realised,
+    Refusal,
+    Shape,
+    Start,
+    Tunable,
+)
 from ....engines.knobs import Knob, Options
 from ...system.table_text import spelled
 
@@ -166,7 +176,22 @@ def tunable(engine: Tunable, scene: Scene, start: Start) -> Options:
         text: Any = engine.snippet(scene, start, options, step)
         if not isinstance(text, str):
             raise BadAnswer(f"snippet should be text, is {_kind(text)}")
+    if isinstance(engine, Plain):
+        _shaped(engine, scene, start)
     return options
+
+
+def _shaped(engine: Plain, scene: Scene, start: Start) -> None:
+    """Raises BadAnswer where the shapes that a user has are not told as the protocol says."""
+    found: Any = engine.shapes(scene, start)
+    if not isinstance(found, Sequence) or not all(isinstance(one, Shape) for one in found):
+        raise BadAnswer(f"shapes should be a list of shapes, is {_kind(found)}")
+    for value in found:
+        if not isinstance(value.options, Mapping) or not _plain(value.options):
+            raise BadAnswer(f"shapes should have options as a file has them, {_kind(value)}")
+    words: Any = engine.own_contacts(scene)
+    if not isinstance(words, str):
+        raise BadAnswer(f"own_contacts should be text, is {_kind(words)}")
 
 
 def _plain(options: Any) -> bool:
