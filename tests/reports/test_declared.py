@@ -168,14 +168,19 @@ def test_an_energy_that_is_counted_twice_is_off_by_itself() -> None:
 
 
 def test_the_elastic_bounces_numbers_follow_from_its_duration() -> None:
+    """Late by 16 h a bounce, and by what 0.4 % more of the energy add to the flight after it."""
     (case,) = [c for c in load(shipped()["bouncing_disk"]) if c.name.endswith("elastic")]
     g, fall = 9.81, case.parameters["y0"] - case.parameters["R"]
     assert isinstance(case.step, dict)
     late, v = 16 * case.step["mujoco"], math.sqrt(2 * g * fall)
-    least = {"bounces.time": late, "wheel.y": 2 * late * v, "wheel.vy": 2 * late * g}
-    for quantity, lowest in least.items():
+    longer = 2 * (0.5 * 4e-3 * v) / g
+    worst = {
+        "bounces.time": late + longer,
+        "wheel.y": (2 * late + longer) * v,
+        "wheel.vy": (2 * late + longer) * g,
+    }
+    for quantity, expected in worst.items():
         deviation = case.deviates["mujoco.tuned"][quantity]
         assert deviation.by is not None
         low, high = deviation.by
-        assert low == pytest.approx(lowest, rel=5e-3)
-        assert high <= 1.2 * low * 1.005
+        assert low <= expected <= high <= 1.25 * low
