@@ -155,7 +155,7 @@ def test_a_tip_in_the_air_lacks_the_whole_force() -> None:
 
 @pytest.mark.slow
 def test_a_ball_keeps_what_its_bounce_may_keep() -> None:
-    """To 0.99 % of the speed: so much longer, and 16 h late, it flies at most; never less than late.
+    """To 0.99 % of the speed: so much longer, and 16 h late, it flies at most; at least late.
 
     The share is that of the setting's own words.
     """
