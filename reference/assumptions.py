@@ -193,13 +193,18 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         first = int(np.argmax(fails))
         t = motion.times[first]
         if carried[first] <= 0 or normal[first] < 0:
-            what = f"the floor would have to pull at t = {t:.3g} s: {contact.body} leaves it"
+            what = _pulled(contact, float(t))
         else:
             what = (
                 f"{doing} is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
                 f"it would slip; {_needed(case, motion, contact, normal, carried)}"
             )
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
+
+
+def _pulled(contact: Contact, t: float) -> str:
+    plane = contact.plane.name
+    return f"the {plane} would have to pull at t = {t:.3g} s: {contact.body} leaves it"
 
 
 def _slipping_between(
@@ -209,7 +214,7 @@ def _slipping_between(
     doing = "rolling" if contact.ideal == "rolling" else "pivoting"
     path = ("scene", "contacts", contact.name, "ideal")
     if pulls := _pulls(case, motion, carried):
-        what = f"the floor would have to pull at t = {min(pulls):.3g} s: {contact.body} leaves it"
+        what = _pulled(contact, min(pulls))
         yield case.mistake(path, what)
     elif slips := _dips_of_friction(case, motion, contact.name, normal, contact.friction):
         what = (

@@ -1,8 +1,11 @@
 """`textmech advise`."""
 
 import warnings
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -19,6 +22,9 @@ from .options import (
     no_cache,
     overwrite,
 )
+
+if TYPE_CHECKING:
+    from ..batch.advice.advice_rows import Advised
 
 PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what each allows
 
@@ -80,14 +86,14 @@ def advise(
 ) -> None:
     """Which setting does a CASE need?
 
-    First what a person sees: energy lost, gaps, creep. Then for each engine two recipes, which may
-    be one: the fewest changed options, and the cheapest. Both keep every quantity within its
-    tolerance with a margin, at their step and at the next finer one, and wherever a loop is cut; a
-    body on planes is a box or a ball of your own model there, started as you start it, and not our
-    points and margins.
+    At once what a person sees as shipped: energy lost, gaps, creep. Then for each engine two
+    recipes, which may be one: the fewest changed options, and the cheapest. Both keep every
+    quantity within its tolerance with a margin, at their step and at the next finer one, and
+    wherever a loop is cut; a body on planes is a box or a ball of your own model there, started as
+    you start it, and not our points and margins.
     With each what it costs beside the shipped setting, and what to paste: into a model or script of
     your own, and as a file of --settings. Then how cost falls with error over all that was tried.
-    Where nothing does it, what remains.
+    Where nothing does it, what remains, and the nearest; Ctrl-C ends with the nearest so far.
 
     \b
       textmech advise my_case.yaml                      your own mechanism, every engine
@@ -95,7 +101,7 @@ def advise(
       textmech advise --all                             the committed reports/advice.csv
     """
     from ..batch.advice.advice_rows import Requirement, rows
-    from ..batch.advice.advise import advised
+    from ..batch.advice.advise import Listener, advised
     from ..batch.cache import store
     from ..batch.selection import choose_cases, choose_engines
     from ..compare.trial.work import too_long
@@ -103,7 +109,7 @@ def advise(
     from ..data.row import Advice
     from ..output import write
     from ..show import document, progress
-    from ..show.advice import advice_lines
+    from ..show.advice import advice_lines, shipped_lines, stopped_lines
 
     if bool(cases) == every:
         raise click.UsageError("name a CASE, or say --all")
@@ -119,10 +125,14 @@ def advise(
         raise CaseError(long)
     used = None if no_cache else store.usable()
     front, table, draws = not (every or wants_json), list[Advice](), list[dict[str, int]]()
+    listener = Listener(partial(_say, shipped_lines), partial(_say, stopped_lines))
     with progress.progress() as shown, finished(used is not None):
         for each in [None, PART] if every and tolerance is None else [tolerance]:
             asked = Requirement(each, margin, front=front, robust=robust)
-            with advised(chosen, engines, asked, jobs=jobs, progress=shown, store=used) as found:
+            with advised(
+                chosen, engines, asked, jobs=jobs, progress=shown, store=used,
+                listener=listener if front else None,
+            ) as found:  # fmt: skip
                 for one in found:
                     table += (mine := rows(one))
                     draws += [asdict(held) for held in one.draws] or [{} for _ in mine]
@@ -135,6 +145,12 @@ def advise(
         write.advice(table, out, overwrite=overwrite)
         DONE.append(f"the advice is in {out}")
         tell(f"{len(table)} rows written to {out / write.ADVICE}")
+
+
+def _say(lines: "Callable[[Advised], Iterator[str]]", advice: "Sequence[Advised]") -> None:
+    for one in advice:
+        for line in lines(one):
+            say(line)
 
 
 def _without_setting(names: tuple[str, ...]) -> list[str]:

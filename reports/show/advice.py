@@ -21,19 +21,39 @@ from ..data.short_numbers import factor, milliseconds
 HEADS = {BOTH: "fewest changes, and cheapest"}
 
 
+def shipped_lines(one: Advised) -> Iterator[str]:
+    """Yields what a person sees of one case in one engine as shipped, before any search."""
+    yield ""
+    if one.kitchen is None:
+        yield f"{_name(one)}: refused: {rows(one)[0].remains}"
+        return
+    yield f"{_name(one)}, as shipped, {milliseconds(one.shipped.step)}"
+    yield from _measured_on(one)
+    yield from _found(one, one.shipped)
+
+
+def stopped_lines(one: Advised) -> Iterator[str]:
+    """Yields the nearest of all that was tried before the search was interrupted."""
+    for candidate in one.pasted:
+        runs = 0 if one.kitchen is None else len(one.kitchen.bar.known)
+        yield ""
+        yield f"{_name(one)}: interrupted after {runs} run{'s' * (runs > 1)}; the nearest so far"
+        yield from _found(one, candidate)
+        yield from _paste(one, candidate)
+
+
+def _name(one: Advised) -> str:
+    return f"{one.pair.case.name} in {one.pair.engine.name} {one.pair.engine.version}"
+
+
 def advice_lines(one: Advised) -> Iterator[str]:
     """Yields the advice on one case in one engine, line by line."""
-    case, engine = one.pair.case, one.pair.engine
+    if one.kitchen is None:
+        return
     tolerance, margin = one.asked.tolerance, one.asked.margin
     within = "its tolerances" if tolerance is None else f"{tolerance:g} of its size"
     yield ""
-    yield f"{case.name} in {engine.name} {engine.version}: all within {within} / {margin:g}"
-    if one.kitchen is None:
-        yield f"  refused: {rows(one)[0].remains}"
-        return
-    yield from _measured_on(one)
-    yield f"  as shipped, {milliseconds(one.shipped.step)}"
-    yield from _found(one, one.shipped)
+    yield f"{_name(one)}: all within {within} / {margin:g}"
     if one.recipes is None:
         yield f"  no recipe: {rows(one)[0].remains}"
         if ours := " and ".join(one.kitchen.menu.ours):

@@ -57,8 +57,8 @@ def carried(causes: Iterable[Cause], known: Mapping[Key, Sequence[Cause]]) -> st
             searched.setdefault(key_of(cause), []).append(cause)
     count = sum(known.get(key) == told for key, told in searched.items())
     left = len(searched) - count
-    told = f"causes: those of {count} rows are the committed ones, for nothing that they stand on"
-    return f"{told} has changed; those of {left} were searched" if count else ""
+    told = f"causes: {count} rows keep the committed ones, as nothing they depend on has changed"
+    return f"{told}; {left} were searched anew" if count else ""
 
 
 def _joined(rows: Iterable[tuple[Any, ...]]) -> Cures:

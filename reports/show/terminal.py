@@ -21,14 +21,11 @@ from .table import WIDTH, narrow
 def show(
     report: Report, *, detailed: bool, written: Path | None, cures: Cures | None = None
 ) -> None:
-    """The rows of named cases, the summary, what fails, and where it was written."""
-    if detailed:
-        for told in (*rows(report.comparisons), *certificate_lines(report.certificates)):
-            say(told)
-    for case, warning in report.warnings():
-        for told in _wrapped(f"{case}: warning: {warning}", ""):
-            say(told)
+    """The summary, warnings, what fails, the rows of named cases, and where it was written."""
     _summary(report, cures or {})
+    for case, warning in report.warnings():
+        for text in _wrapped(f"{case}: warning: {warning}", ""):
+            say(text)
     for check in report.certificates:
         if check.verdict == FAILS:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
@@ -39,6 +36,10 @@ def show(
             say(note)
     for note in without_effect(report.comparisons):
         say(note)
+    if detailed:
+        for text in (*certificate_lines(report.certificates), *rows(report.comparisons)):
+            say(text)
+        say()
     counts = Counter(row.verdict for row in report.comparisons)
     say(", ".join(f"{count} {spoken(word)}" for word, count in counts.most_common()))
     if written is not None:

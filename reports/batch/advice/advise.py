@@ -1,9 +1,9 @@
 """Which setting does a case need? The search for the minimal recipe of each engine."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ....cases.case import Case
@@ -35,16 +35,52 @@ TOLD_IN = "engines/README.md#the-protocol"
 NO_STEPS = "a claim about states: no step and no option plays a part"
 
 
-def advise(pairs: Sequence[Pair], asked: Requirement, results: Results) -> list[Advised]:
+@dataclass(frozen=True)
+class Listener:
+    """Who hears of a search on its way.
+
+    begun: once each engine has run as shipped, before anything is searched; stopped: with what was
+    tried so far, when the user interrupts it.
+    """
+
+    begun: "Callable[[Sequence[Advised]], None]" = lambda ready: None
+    stopped: "Callable[[Sequence[Advised]], None]" = lambda ready: None
+
+
+def advise(
+    pairs: Sequence[Pair], asked: Requirement, results: Results, listener: Listener | None = None
+) -> list[Advised]:
     """For each case in each engine as shipped; of all searches at once.
 
     Raises CaseError with what only solving finds.
     """
+    listener = listener or Listener()
     sampled = _sampled(pairs, results)
     broken = lost({pair.name: pair for pair, why in sampled if not why}, results)
     ready = [_prepared(pair, asked, why, broken.get(pair.name, "")) for pair, why in sampled]
-    advised = _searched(ready, asked, results)
-    return [_drawn(one, results) for one in advised] if asked.robust else advised
+    _run_as_shipped(ready, results)
+    listener.begun(ready)
+    try:
+        advised = _searched(ready, asked, results)
+        return [_drawn(one, results) for one in advised] if asked.robust else advised
+    except KeyboardInterrupt:
+        listener.stopped(ready)
+        raise
+
+
+def _run_as_shipped(ready: Sequence[Advised], results: Results) -> None:
+    searches = {
+        f"{one.pair.case.name} {one.pair.engine.name}": Search(
+            one.pair, one.kitchen.bar.known, _shipped(one)
+        )
+        for one in ready
+        if one.kitchen is not None
+    }
+    together("shipped", searches, results)
+
+
+def _shipped(one: Advised) -> Asking[None]:
+    yield [one.shipped]
 
 
 def _searched(ready: Sequence[Advised], asked: Requirement, results: Results) -> list[Advised]:
@@ -121,7 +157,16 @@ def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
     found = results.of("references", solved, by_key)
     own = {key for pair, case, key in zip(pairs, cases, keys, strict=True) if case is pair.case}
     wrong = {key: mistakes_of(by_key[key], answer) for key, answer in found.items()}
-    if mistaken := [one for key in by_key if key in own for one in wrong[key]]:
+    mistaken = [mistake for key in by_key if key in own for mistake in wrong[key]]
+    # What is mistaken at its own samples is mistaken, whatever an engine's step asks for.
+    others = {
+        results.keys.solution(pair.case): pair.case
+        for pair, key in zip(pairs, keys, strict=True)
+        if key not in own and wrong[key]
+    }
+    again = results.of("references", solved, others) if others else {}
+    mistaken += [m for key, answer in again.items() for m in mistakes_of(others[key], answer)]
+    if mistaken:
         raise CaseError(mistaken)
     lost = {key: f"{_FAR}: {each[0].what}" for key, each in wrong.items() if each}
     lost = {key: f"there is no reference: {why}" for key, why in lost.items()}
@@ -273,10 +318,12 @@ def advised(
     jobs: int | None = None,
     store: Store | None = None,
     executor: Executor | None = None,
+    listener: Listener | None = None,
 ) -> Iterator[list[Advised]]:
     """Yields the advice for each case in each engine as shipped; references stay until the end.
 
-    jobs, store and executor as of `suite.measure`. Raises CaseError for what only solving finds.
+    jobs, store and executor as of `suite.measure`; listener: who hears of it on the way. Raises
+    CaseError for what only solving finds.
     """
     keys = Keys.now(store)
     with (
@@ -285,4 +332,4 @@ def advised(
     ):
         results = Results(working, progress, used, keys)
         pairs = [Pair(case, e, used, keys.solution(case)) for case in cases for e in engines]
-        yield advise(pairs, asked, results)
+        yield advise(pairs, asked, results, listener)

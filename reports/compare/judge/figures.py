@@ -26,6 +26,7 @@ Rows = NDArray[np.bool_]
 
 
 ROUNDING = 1e-12  # in any unit: nobody asks for less
+WHOLE = 100.0  # %
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,8 @@ class Plain:
     def __str__(self) -> str:
         if not self.unit:
             return f"{self.what}: {_said(self.value)} (textbook {_said(self.wanted)})"
+        if self.unit.startswith("%") and self.value > WHOLE:
+            return f"{self.what}: {_said(self.value / WHOLE)} times all that moves, each second"
         if self.unit.startswith("m") and abs(self.value) < 0.1:
             return f"{self.what}: {_said(1e3 * self.value)} m{self.unit}"
         return f"{self.what}: {_said(self.value)} {self.unit}"
@@ -81,6 +84,7 @@ def numbers(
     away: Rows = np.min(gaps, axis=1, initial=np.inf) > near
     yield from _energy(scene, reference, motion, away)
     yield from _gap(scene, motion)
+    yield from _passed(scene, motion)
     for contact in (*scene.contacts.values(), *scene.pairs.values()):
         yield from depth(scene, contact, motion)
         yield from restitution(scene, contact, reference, motion)
@@ -124,6 +128,15 @@ def _gap(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
     if gaps:
         worst = max(gaps, key=lambda name: gaps[name])
         yield Plain(f"gap of {worst}", gaps[worst], "m")
+
+
+def _passed(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
+    """How far each rope or stop is passed at most."""
+    whole = _motion(scene, motion.record or motion)
+    for limit in scene.limits():
+        least = min(float(np.min(gaps, initial=0.0)) for gaps in limit.gaps(whole))
+        unit = table(scene)[f"{limit.name}.{limit.measured}"].unit
+        yield Plain(f"how far past {limit.name}", -least, unit)
 
 
 # Plain numbers of contacts: how deep, how fast it creeps, what is left of friction and bounce.
