@@ -18,7 +18,6 @@ import numpy as np
 
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake, Source, nearest
-from ..cases.scene.unnamed import through
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -160,6 +159,7 @@ def solve(word: Word) -> Reference:
     from ..reference.solve import solve as solved
     from .compare.events.states import mistaken
     from .compare.judge.instants import of_reference
+    from .compare.judge.unintended import unintended
     from .page.motion_frames import reference_frame
     from .show import progress as shown
 
@@ -186,7 +186,7 @@ def solve(word: Word) -> Reference:
         events=pd.DataFrame(times, columns=["event", "k", "time"]),
         checks=pd.DataFrame([vars(check) | {"holds": check.holds} for check in solution.checks]),
         allowed={name: bar for name, bar in case.allow.items() if bar is not None},
-        warnings=() if case.states else (*through(case.scene, solution.trajectory),),
+        warnings=(*unintended(case, solution.trajectory),),
     )
 
 

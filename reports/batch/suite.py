@@ -8,7 +8,6 @@ from math import ceil, inf, log10
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
-from ...cases.scene.unnamed import through
 from ...engines.engine import Engine
 from ...reference.certificate.agreement import Check
 from ...reference.solve import Solution
@@ -16,6 +15,7 @@ from ..compare.events.states import mistaken
 from ..compare.judge.instants import of_reference
 from ..compare.judge.metric import round_to_floor
 from ..compare.judge.uncertified import failing, uncertified
+from ..compare.judge.unintended import unintended
 from ..compare.trial.book import producers
 from ..data.coverage import countable
 from ..data.promised import answered
@@ -74,12 +74,11 @@ class Report:
 
     def warnings(self) -> list[tuple[str, str]]:
         """(case, sentence) of what a motion shows that is no mistake, and most likely not meant."""
-        moving = [case for case in self.cases if case.states is None]
         return [
             (case.name, what)
-            for case in moving
+            for case in self.cases
             if (solution := self.solutions.get(case.name))
-            for what in through(case.scene, solution.trajectory)
+            for what in unintended(case, solution.trajectory)
         ]
 
 

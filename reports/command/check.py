@@ -105,10 +105,10 @@ class _Task:
 
 def _solved(task: _Task) -> Checked:
     """Solves a file's cases: finds the mistakes and failed checks that only references show."""
-    from ...cases.scene.unnamed import through
     from ...reference.solve import solve
     from ..compare.events.states import mistaken
     from ..compare.judge.uncertified import otherwise
+    from ..compare.judge.unintended import unintended
 
     file, cases = task.name, task.cases
     try:
@@ -124,8 +124,7 @@ def _solved(task: _Task) -> Checked:
         [
             (case.name, what)
             for case, solution in solved
-            if case.states is None
-            for what in through(case.scene, solution.trajectory)
+            for what in unintended(case, solution.trajectory)
         ],
     )
 

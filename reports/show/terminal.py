@@ -106,7 +106,8 @@ def rows(comparisons: Sequence[Comparison]) -> Iterator[str]:
         group = [*found]
         yield ""
         yield head(group)
-        yield from _wrapped(group[0].protocol, "  ")
+        protocols = (row.protocol for row in reversed(group) if row.protocol)  # the audit's is less
+        yield from _wrapped(next(protocols, ""), "  ")
         names = max(len(spoken(row.quantity)) for row in group)
         units = max(len(row.unit) for row in group)
         for (_, silent, because), same in groupby(group, key=_reason):

@@ -14,6 +14,7 @@ from textmech.cases.fields.signal import Signal
 from textmech.cases.load import load
 from textmech.engines.engine import Plan
 from textmech.reference.solve import motion_of, solve
+from textmech.reports.compare.judge import unintended
 from textmech.reports.compare.judge.compare import compare
 from textmech.reports.compare.trial import impacts, phases
 from textmech.reports.compare.trial.start import first
@@ -139,3 +140,15 @@ def test_the_motion_of_other_times_is_the_certified_one(tmp_path: Path) -> None:
     rows = np.searchsorted(other.times, case.times)
     assert other.states["ball"][rows] == pytest.approx(motion.states["ball"], abs=1e-13)
     assert other.blows == pytest.approx(motion.blows, abs=1e-13)
+
+
+@pytest.mark.mutant("a sample on an impact is told by nothing")
+def test_a_sample_on_an_impact_is_told(tmp_path: Path) -> None:
+    """It strikes at 0.4 s, which is the eleventh sample of 26 and none of 24."""
+    case = thrown(tmp_path, 0.1 + SPEED * 0.4)
+    (what,) = unintended.unintended(case, solve(case).trajectory)
+    assert what.startswith("the sample at 0.4 s falls on an impact")
+    others = replace(case, samples=24)
+    assert not [*unintended.unintended(others, solve(others).trajectory)]
+    silent = otherwise(unintended, "    if met:", "    if not met:")
+    assert not [*silent.unintended(case, solve(case).trajectory)]

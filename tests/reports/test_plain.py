@@ -207,6 +207,20 @@ def test_no_number_is_read_in_the_air_or_on_an_impact() -> None:
     assert rates[1] == pytest.approx(0.0, abs=1e-9)
 
 
+def test_how_far_a_stop_is_passed_is_told() -> None:
+    name = "stopped_pendulum.rests"
+    reference, scene = solved(name).trajectory, CASES[name].scene
+    (stop,) = scene.limits()
+    gaps = np.concatenate([*stop.gaps(figures._motion(scene, reference))])
+    assert told(scene, reference, reference)["how far past stop"].value == pytest.approx(
+        0, abs=1e-9
+    )
+    deeper = changed(reference, "bar", angle=reference.states["bar"][:, ANGLE] + 0.25)
+    other = changed(reference, "bar", angle=reference.states["bar"][:, ANGLE] - 0.25)
+    passed = [told(scene, reference, each)["how far past stop"].value for each in (deeper, other)]
+    assert max(passed) == pytest.approx(0.25 - np.min(gaps), abs=1e-9)
+
+
 # Case, engine, its number and the value known by other measurements (a person's rounding).
 KNOWN = [
     ("bouncing_disk.elastic", "mujoco", "restitution of touch", 0.13, 0.01),
@@ -250,6 +264,10 @@ def test_bodies_on_each_other() -> None:
         (Plain("creep of touch", 3e-20, "m/s"), "creep of touch: 0 mm/s"),
         (Plain("creep of axle", 0.02, "rad/s"), "creep of axle: 0.02 rad/s"),
         (Plain("energy lost", 5.812, "% a second"), "energy lost: 5.81 % a second"),
+        (
+            Plain("energy lost", 652.0, "% a second"),
+            "energy lost: 6.52 times the largest kinetic energy a second",
+        ),
         (Plain("restitution of touch", 0.128, "", 1.0), "restitution of touch: 0.128 (textbook 1)"),
         (Plain("restitution of touch", 0.1, ""), "restitution of touch: 0.1 (textbook 0)"),
     ],

@@ -42,7 +42,8 @@ class Plain:
         if not self.unit:
             return f"{self.what}: {_said(self.value)} (textbook {_said(self.wanted)})"
         if self.unit.startswith("%") and self.value > WHOLE:
-            return f"{self.what}: {_said(self.value / WHOLE)} times all that moves, each second"
+            times = _said(self.value / WHOLE)
+            return f"{self.what}: {times} times the largest kinetic energy a second"
         if self.unit.startswith("m") and abs(self.value) < 0.1:
             return f"{self.what}: {_said(1e3 * self.value)} m{self.unit}"
         return f"{self.what}: {_said(self.value)} {self.unit}"
