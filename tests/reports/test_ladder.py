@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -18,7 +17,6 @@ from textmech.reports.compare.judge.convergence import Convergence
 from textmech.reports.compare.trial import ladder as stepping
 from textmech.reports.compare.trial.ladder import (
     USUAL,
-    Ladder,
     judged_step,
     ladders,
     wanted_reactions,
@@ -159,36 +157,27 @@ def test_a_shown_file_has_the_judged_step(trial: Make, monkeypatch: pytest.Monke
     assert " by 0.002 s" in shown(made, twice)
 
 
-def told_by(trial: Trial, error: float, held: Convergence, monkeypatch: pytest.MonkeyPatch) -> str:
+def told_by(trial: Trial, error: float, held: Convergence) -> str:
     """Which ladder is asked for a cause, of a row that allows as much as the case."""
-    monkeypatch.setattr(comparing, "_study", lambda trial, one, *rest: one.name)
-    both = {Ladder("following", (trial.step,)): {}, Ladder("held", (trial.step,)): {}}
-    runs = SimpleNamespace(ladders=both)
-    told = comparing._telling(trial, "ball.x", runs, error, held)  # pyright: ignore
-    return "held" if told is held else str(told)
+    following = Convergence(FALLS, {}, None)
+    told = comparing._telling(trial, "ball.x", error, held, following)
+    return "held" if told is held else "following"
 
 
 @pytest.mark.mutant("a model is blamed for the numbers of a ladder's coarsest step")
 @pytest.mark.parametrize(("verdict", "asked"), [(FALLS, "following"), (ANOTHER, "held")])
 def test_a_model_whose_error_falls_where_its_numbers_follow_is_not_blamed(
-    trial: Make,
-    moving: Case,
-    verdict: str,
-    asked: str,
-    monkeypatch: pytest.MonkeyPatch,
+    trial: Make, moving: Case, verdict: str, asked: str
 ) -> None:
     one, following = trial(moving), Convergence(verdict, {}, None)
-    monkeypatch.setattr(comparing, "_study", lambda *given: following)
-    both = {Ladder("following", (one.step,)): {}, Ladder("held", (one.step,)): {}}
     model = Convergence(ANOTHER, {}, None, limit=3.76, uncertainty=0.05)
-    runs = SimpleNamespace(ladders=both)
-    told = comparing._telling(one, "ball.x", runs, 5.53, model)  # pyright: ignore
+    told = comparing._telling(one, "ball.x", 5.53, model, following)
     assert told is (following if asked == "following" else model)
 
 
 @pytest.mark.mutant("the step is to blame, and it is small enough already")
 def test_a_held_ladder_that_is_within_where_the_row_is_not_is_not_asked(
-    trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
+    trial: Make, moving: Case
 ) -> None:
     """Its numbers, or its start, are another at the judged step: what it says is of these."""
     one = trial(moving)
@@ -197,6 +186,6 @@ def test_a_held_ladder_that_is_within_where_the_row_is_not_is_not_asked(
     step = one.step
     within = Convergence(WITHIN, {step: 0.1 * allowed, 2 * step: 0.2 * allowed}, 2 * step)
     finer = Convergence(WITHIN, {step / 2: 0.1 * allowed, step: 3 * allowed}, step / 2)
-    assert told_by(one, 3 * allowed, finer, monkeypatch) == "held"
-    assert told_by(one, 3 * allowed, within, monkeypatch) == "following"
-    assert told_by(one, 0.5 * allowed, within, monkeypatch) == "held"
+    assert told_by(one, 3 * allowed, finer) == "held"
+    assert told_by(one, 3 * allowed, within) == "following"
+    assert told_by(one, 0.5 * allowed, within) == "held"

@@ -1,7 +1,7 @@
 """A trial's rows: audit, ladders, and a verdict for every observed quantity."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -40,6 +40,10 @@ from .metric import floor, round_to_floor
 from .rows import judged, row, rungs, steps
 from .verdict import verdict
 
+Studied = Mapping[tuple[Ladder, str], Convergence]
+"""What a ladder says of a quantity, by both."""
+NOTHING = Convergence(UNSETTLED, {}, None)
+"""What no step says."""
 AWAY = 4  # of a ladder's largest steps: how far from an event a sample tells an order
 
 
@@ -78,19 +82,18 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     begun = [Begun(trial, fairly(trial, runs.judged, trial.step))]
     begun += [run for run in later if not isinstance(run, str)]
     trial = replace(trial, starts=len(begun))
-    moments: dict[str, str] = {}
-    rows += [_judged(trial, name, runs, _worst(begun, name), moments) for name in motion]
+    sure = partial(_over_phases, trial=trial, runs=runs, phases=phases)
     studies = [
-        (ladder, name, found)
+        sure((ladder, name, _study(trial, ladder, runs, name)))
         for ladder, climbed in runs.ladders.items()
         if climbed
         for name in motion
-        for found in [_study(trial, ladder, runs, name)]
     ]
-    told, of_events = instants.judge(trial, events, runs, begun)
+    studied = {(ladder, name): found for ladder, name, found in studies}
+    moments: dict[str, str] = {}
+    rows += [_judged(trial, name, runs, _worst(begun, name), studied, moments) for name in motion]
+    told, of_events = instants.judge(trial, events, runs, begun, sure)
     studies += of_events
-    if phases.moved:
-        studies = list(_over_phases(studies, trial, runs, phases))
     moments |= {name: words for name in events if (words := instants.spread(trial, name))}
     listed = instants.listed(trial, runs.judged)
     wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
@@ -166,17 +169,17 @@ def _audit(trial: Trial) -> Comparison:
 
 
 def _judged(
-    trial: Trial, name: str, runs: Runs, worst: Begun, moments: dict[str, str]
+    trial: Trial, name: str, runs: Runs, worst: Begun, studied: Studied, moments: dict[str, str]
 ) -> Comparison:
     """The quantity's row, of the worst start; if it is off at an instant, that is noted too."""
     samples, wanted, ladders = worst.samples[name], worst.trial.wanted(name), list(runs.ladders)
-    held = _study(trial, ladders[-1], runs, name)
+    held = studied.get((ladders[-1], name), NOTHING)
     # What is promised for h → 0 is the tuned setting's, whose numbers follow the step.
-    tuned = _study(trial, ladders[0], runs, name) if len(ladders) > 1 else held
+    tuned = studied.get((ladders[0], name), NOTHING)
     error = metric.error(samples, wanted)
     unit = trial.quantity(name).unit
     told = partial(cause, finer=runs.finer, simplified=trial.plan.simplified, unit=unit)
-    why = told(_telling(trial, name, runs, error.largest, held))
+    why = told(_telling(trial, name, error.largest, held, tuned))
     at = moment(worst.trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
@@ -186,7 +189,8 @@ def _judged(
         if not rest <= (trial.allowed(name) or np.inf):
             elsewhere = away_from_instants(trial)
             others = _study(trial, ladders[-1], runs, name, elsewhere)
-            others = _telling(trial, name, runs, rest, others, elsewhere)
+            following = _study(trial, ladders[0], runs, name, elsewhere)
+            others = _telling(trial, name, rest, others, following)
             why = f"{why}: {told(others)}"
     when = float(worst.trial.case.times[error.at])
     word = verdict(trial, name, error.largest, held, why, tuned)
@@ -199,19 +203,19 @@ def _worst(begun: Sequence[Begun], name: str) -> Begun:
     return begun[int(np.argmax(np.nan_to_num(sizes, nan=np.inf)))]
 
 
-def _over_phases(
-    studies: Sequence[Study], trial: Trial, runs: Runs, phases: Phases
-) -> Iterator[Study]:
-    """Yields the studies, each usable up to the largest step at which every start keeps the bound.
+def _over_phases(study: Study, *, trial: Trial, runs: Runs, phases: Phases) -> Study:
+    """The study, usable up to the largest step at which every start within a step keeps the bound.
 
     Smaller steps are known to keep it from one start, and are not asked of the others.
     """
-    for ladder, name, found in studies:
-        kept, climbed = ladder.plan(trial.plan).kept, runs.ladders[ladder]
-        steps = [h for h in sorted(climbed) if h <= (found.usable_step or 0.0)]
-        begun = ((h, [Begun(trial, climbed[h]), *phases.at(h, kept)]) for h in reversed(steps))
-        usable = next((h for h, starts in begun if _keep(name, starts, h)), None)
-        yield ladder, name, replace(found, usable_step=usable)
+    ladder, name, found = study
+    if not phases.moved:
+        return study
+    kept, climbed = ladder.plan(trial.plan).kept, runs.ladders[ladder]
+    steps = [h for h in sorted(climbed) if h <= (found.usable_step or 0.0)]
+    begun = ((h, [Begun(trial, climbed[h]), *phases.at(h, kept)]) for h in reversed(steps))
+    usable = next((h for h, starts in begun if _keep(name, starts, h)), None)
+    return ladder, name, replace(found, usable_step=usable)
 
 
 def _keep(name: str, begun: Sequence[Begun | str], step: float) -> bool:
@@ -232,12 +236,7 @@ def _off(trial: Trial, name: str, samples: Samples, step: float) -> float:
 
 
 def _telling(
-    trial: Trial,
-    name: str,
-    runs: Runs,
-    largest: float,
-    held: Convergence,
-    among: NDArray[np.bool_] | None = None,
+    trial: Trial, name: str, largest: float, held: Convergence, following: Convergence
 ) -> Convergence:
     """The ladder that tells a cause: the held one, which parts step and model.
 
@@ -250,9 +249,8 @@ def _telling(
     beyond = largest > (trial.allowed(name) or np.inf)
     better = beyond and (held.usable_step or 0.0) >= trial.step
     model = held.verdict == ANOTHER
-    if len(runs.ladders) == 1 or not (worse or better or model):
+    if not (worse or better or model):
         return held
-    following = _study(trial, next(iter(runs.ladders)), runs, name, among)
     return following if worse or better or following.verdict == FALLS else held
 
 
@@ -266,7 +264,7 @@ def _study(
     """One quantity on one ladder; `among`: of these samples (N,) alone."""
     climbed, case = runs.ladders[ladder], trial.case
     if not climbed:
-        return Convergence(UNSETTLED, {}, None)
+        return NOTHING
     keep = np.ones(case.samples, dtype=bool) if among is None else among
     return study(
         {h: samples[name][keep] for h, samples in climbed.items()},

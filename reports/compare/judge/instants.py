@@ -1,6 +1,6 @@
 """The events of a trial: rows for their times and counts, and the list of all instants."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import zip_longest
 
 import numpy as np
@@ -33,11 +33,16 @@ LATER = "say so by `tube`, as `tube: 2 ms` at the top of the file: it is then re
 
 
 def judge(
-    trial: Trial, names: tuple[str, ...], runs: Runs, begun: Sequence[Begun]
+    trial: Trial,
+    names: tuple[str, ...],
+    runs: Runs,
+    begun: Sequence[Begun],
+    sure: Callable[[Study], Study],
 ) -> tuple[list[Comparison], list[Study]]:
     """Rows of `event.time`, `event.count` and states at events, and what ladders say of them.
 
-    begun: the judged run, and those begun later within a step; the worst is told.
+    begun: the judged run, and those begun later within a step; the worst is told. sure: makes of a
+    study of one start that of all of them.
     """
     samples = begun[0].samples
     rows: list[Comparison] = []
@@ -52,8 +57,9 @@ def judge(
             rows.append(_count(trial, event, worst))
         else:
             worst = max(begun, key=lambda run: _largest(*run, name))
-            rows.append(_each(trial, name, worst, runs))
-            studies += _climbed(trial, name, runs)
+            climbs = [sure(study) for study in _climbed(trial, name, runs)]
+            rows.append(_each(trial, name, worst, runs, climbs))
+            studies += climbs
     return rows, studies
 
 
@@ -88,7 +94,7 @@ def _count(trial: Trial, event: str, worst: Begun) -> Comparison:
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
 
-def _each(trial: Trial, name: str, worst: Begun, runs: Runs) -> Comparison:
+def _each(trial: Trial, name: str, worst: Begun, runs: Runs, climbs: Sequence[Study]) -> Comparison:
     """Times or states in their order, as many as both have; the count is another row's matter."""
     event, samples, timing = trial.quantity(name).part, worst.samples, worst.trial.timing
     found = samples[name]
@@ -99,7 +105,6 @@ def _each(trial: Trial, name: str, worst: Begun, runs: Runs) -> Comparison:
         why = NEVER if told else TOO_SHORT.format(trial.step)
         return row(trial, name, REFUSED, because=why)
     error = metric.error(found[:both], worst.trial.wanted(name)[partners])
-    climbs = list(_climbed(trial, name, runs))
     held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
     why = cause(held, runs.finer, trial.plan.simplified, trial.quantity(name).unit)
     sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
