@@ -13,7 +13,7 @@ from ...compare.judge import metric
 from ...compare.judge.error_instant import away_from_instants
 from ...compare.trial.phases import STARTS, Begun, Phases
 from ...compare.trial.run import Samples, climbed
-from ...compare.trial.simulate import fairly, rung
+from ...compare.trial.simulate import fairly, read, rung
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
 from ...compare.trial.work import pace
@@ -74,7 +74,7 @@ def errors(run: Run) -> Errors:
     samples = climbed(rung(trial, step)) if trial else ""
     if trial is None or isinstance(samples, str):
         return {}
-    worst = _errors(run, Begun(trial, fairly(trial, samples, step)))
+    worst = _errors(run, Begun(trial, fairly(trial, read(trial, samples), step)))
     for later in Phases(trial).at(step):
         other = {} if isinstance(later, str) else _errors(run, later)
         worst = {

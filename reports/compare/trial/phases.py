@@ -17,7 +17,7 @@ from ....cases.trajectory import Trajectory
 from ....engines.engine import Plan
 from ..events.timing import Timing
 from .run import Samples, climbed
-from .simulate import fairly, rung
+from .simulate import fairly, read, rung
 from .trial import Trial, planned
 
 PARTS = (0.25, 0.5, 0.75)  # of a step, by which the engine begins later
@@ -121,4 +121,8 @@ class Phases:
 
 def _run(trial: Trial, step: float) -> Begun | str:
     samples = climbed(rung(trial, step))
-    return samples if isinstance(samples, str) else Begun(trial, fairly(trial, samples, step))
+    return (
+        samples
+        if isinstance(samples, str)
+        else Begun(trial, fairly(trial, read(trial, samples), step))
+    )

@@ -84,18 +84,24 @@ def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
                 elif h == trial.step:
                     lost = lost or samples
             else:
+                samples = read(trial, samples)
                 kept[ladder][h] = fairly(trial, samples, h)
                 if h == trial.step and len(kept) == 1:  # the plan's first ladder is judged
-                    judged = {name: trial.read(name, rows) for name, rows in samples.items()}
+                    judged = samples
     return Runs(judged, kept, lost, finer)
 
 
+def read(trial: Trial, samples: Samples) -> Samples:
+    """Returns a run's samples beside the reference's: of attitudes the turns from those."""
+    return {name: trial.read(name, rows) for name, rows in samples.items()}
+
+
 def fairly(trial: Trial, samples: Samples, step: float) -> Samples:
-    """Returns a run's samples at a step [s] as they are compared: beside impacts fairly."""
-    read = {name: trial.read(name, rows) for name, rows in samples.items()}
-    near = beside(trial, step)
-    motion = {name: fair(trial, name, read[name], step) for name in trial.motion} if near else {}
-    return {**read, **motion}
+    """Returns samples that were read at a step [s] as they are compared: beside impacts fairly."""
+    if not beside(trial, step):
+        return samples
+    motion = {name: fair(trial, name, samples[name], step) for name in trial.motion}
+    return {**samples, **motion}
 
 
 def simulate(trial: Trial) -> Runs:
