@@ -62,7 +62,9 @@ def test_an_engine_that_bounces_as_often_as_its_steps_can_tell_is_not_blamed(
     (tmp_path / "settles.yaml").write_text(SETTLES)
     done = textmech("run", tmp_path / "settles.yaml", "--engine", "pymunk.tuned")
     assert done.returncode == 0, done.stdout
-    told = "bounces.count refused: adapter: reference 14 (of which 4 last long enough for this"
+    told = (
+        "bounces.count not supported: adapter: reference 14 (of which 4 last long enough for this"
+    )
     assert " ".join(done.stdout.split()).count(told) == 2  # natively, and by the driver that cuts
 
 
