@@ -20,7 +20,7 @@ from textmech.reports.page.page import page as drawn_page
 WIDTHS = (390, 900, 1440)
 SHEET = 794  # px: the width of A4
 STOPS = 60  # of the tab key: ten sections, their links, three motions, one choice
-SHEETS = {"": 2, "#swing": 2, "#overview": 1, "#heat": 6, "#four_bar": 2, "#cases": 12}
+SHEETS = {"": 2, "#swing": 2, "#overview": 1, "#heat": 6, "#four_bar": 2, "#cases": 13}
 """What is printed at most of a choice: with nothing open, the first screen."""
 
 pytestmark = [
