@@ -42,7 +42,9 @@ def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -
     assert done.returncode == 0, done.stderr
     for engine in ("mujoco", "pymunk"):
         for setting in ("shipped", "tuned"):
-            assert re.search(rf"^cart in {engine} [\d.]+ {setting}, h", done.stdout, re.MULTILINE)
+            assert re.search(
+                rf"^cart in {engine} [\d.]+ {setting} \(.*\), h", done.stdout, re.MULTILINE
+            )
         assert f"  {engine}.shipped  " in done.stdout
     assert reports() == before
     assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
