@@ -217,14 +217,11 @@ class Tunable(Protocol):
 
 @dataclass(frozen=True)
 class Shape:
-    """What stands for a scene in a user's model, and the own options that build it.
+    """A user's own model of a scene, in words, and the own options that build it."""
 
-    held: whether recipes have to hold on it, too; else they are measured on it.
-    """
-
-    words: str
-    options: Options
-    held: bool = True
+    words: str  # what each body is there, as `ball is a sphere geom`
+    options: Options  # under which the engine builds it
+    held: bool = True  # whether recipes have to hold on it, too; else they are measured on it
 
 
 @runtime_checkable

@@ -65,7 +65,7 @@ def with_box(scene: Scene, start: Start, shape: str) -> tuple[Scene, Start]:
 
 
 def known_of(scene: Scene, found: Mapping[str, float]) -> dict[str, float]:
-    """What is measured of `with_box`, without the moment of inertia that a particle has not."""
+    """The numbers measured of `with_box`, less the moment of inertia that a particle has not."""
     points = [f"{name}.inertia" for name, body in scene.bodies.items() if not body.turns]
     return {name: number for name, number in found.items() if name not in points}
 

@@ -72,7 +72,7 @@ class MuJoCo:
 
     @property
     def _shape(self) -> str:
-        """Of a user's model, as the option `shapes` says; empty: ours."""
+        """Which of a user's models it builds, as the option `shapes` says; empty: ours."""
         return self.options.get("shapes", "")
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:

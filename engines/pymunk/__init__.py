@@ -105,7 +105,7 @@ class Pymunk:
 
     @property
     def _shape(self) -> str:
-        """Of a user's script, as the option `shapes` says; empty: ours."""
+        """Which of a user's models it builds, as the option `shapes` says; empty: ours."""
         return self.options.get("shapes", "")
 
     def own_contacts(self, scene: Scene) -> str:

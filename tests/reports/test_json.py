@@ -123,7 +123,7 @@ def test_list_tells_every_case_and_its_group() -> None:
     assert cases["sliding_block.below"]["group"] == "textbook"
     assert cases["four_bar"]["source"] == "figure 2.3, (2.14), (2.60)"
     asked = {name for name, case in cases.items() if case["group"] == "questions"}
-    assert asked == set(questions())
+    assert {name.partition(".")[0] for name in asked} == set(questions())  # with its variants
     assert all("#" in cases[name]["thread"] for name in asked)
 
 

@@ -74,7 +74,8 @@ def test_the_shipped_cases_stay_far_below() -> None:
     from textmech.reports.batch.selection import choose_cases
 
     most = max(_steps(case, e) for case in choose_cases([]) for e in choose_engines([], []))
-    assert 20 * most < STEPS
+    # A question is about 100 s: 50 000 steps of 2 ms, and the ladder takes 31 times as many.
+    assert 10 * most < STEPS
 
 
 @pytest.mark.parametrize("name", ["mujoco", "pymunk"])

@@ -371,5 +371,5 @@ def lacking(scene: Scene, start: Start) -> list[tuple[Force, str]]:
     if unlike := not_alike(scene, start):
         first, why = unlike  # and with it all of them: the space has one damping
         forces = sorted(slowing(scene), key=lambda force: force.name != first)
-        slowed = [(force, why) for force in forces]
+        slowed = [(scene.forces[force.name], why) for force in forces]
     return [*slowed, *((force, why) for force, why in found if why), *one_sided]

@@ -5,6 +5,7 @@ So pymunk has it where each body is slowed by the same d/m, and nothing turns.
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from ....cases.scene import CENTER, GROUND, Anchor, Body, Couple, Drag, Scene, Torque, Viscous
 from ....cases.scene.forces.force import of
@@ -13,12 +14,56 @@ from ...engine import Start
 ALIKE = 1e-12  # of a rate d/m: what rounding of its numbers leaves
 FASTEST = 700.0  # 1/s: exp(−700) is near the least double
 
-Slowing = Drag | Viscous
+
+@dataclass(frozen=True)
+class Slowing:
+    """A force that slows by a power of the speed.
+
+    body: whose centre it slows against the ground; d: its coefficient [kg/s], alike both ways where
+    `unlike` says nothing: else why it slows no body as a whole by its speed.
+    """
+
+    name: str
+    body: str | None
+    d: float
+    numbers: tuple[str, ...]  # the names of its coefficients, as they are read back
+    unlike: str
 
 
 def slowing(scene: Scene) -> list[Slowing]:
-    """The forces that slow by a power of the speed, in the order of the scene."""
-    return [*of(Drag, scene.forces.values()), *of(Viscous, scene.forces.values())]
+    """The forces that slow by a power of the speed."""
+    drags = (_drag(force) for force in of(Drag, scene.forces.values()))
+    return [*drags, *(_viscous(scene, force) for force in of(Viscous, scene.forces.values()))]
+
+
+SLOWS = "pymunk's space.damping slows"
+A_POWER = "pymunk has no friction by a power of the speed"
+
+
+def _drag(force: Drag) -> Slowing:
+    unlike = ""
+    if force.exponent != 1.0:
+        unlike = A_POWER
+    elif force.along is not None:
+        unlike = f"{SLOWS} alike in all directions, and {force.name} does not"
+    elif force.at.point != CENTER:
+        unlike = f"{SLOWS} a body as a whole, and {force.name} a point beside its centre"
+    return Slowing(force.name, force.at.body, force.coefficient, ("coefficient",), unlike)
+
+
+def _viscous(scene: Scene, force: Viscous) -> Slowing:
+    joint, d = scene.joints[force.joint], force.coefficient
+    still = [e for e in joint.refers() if e.body == GROUND and not scene.points[e.point].driven]
+    moving = [e.body for e in joint.refers() if e.body != GROUND]
+    body = moving[0] if still and moving and not joint.turns else None
+    unlike = ""
+    if force.exponent != 1.0:
+        unlike = A_POWER
+    elif d.forward != d.backward:
+        unlike = f"{SLOWS} alike both ways, and {force.name} does not"
+    elif body is None:
+        unlike = f"{SLOWS} against the ground, where no slide turns"
+    return Slowing(force.name, body, d.forward, ("forward", "backward"), unlike)
 
 
 def rate(scene: Scene) -> float:
@@ -28,73 +73,42 @@ def rate(scene: Scene) -> float:
 
 def numbers(scene: Scene, damping: float) -> dict[str, float]:
     """The coefficients that the space's `damping` holds, by quantity."""
-    found: dict[str, float] = {}
-    for force in slowing(scene):
-        names = ("coefficient",) if isinstance(force, Drag) else ("forward", "backward")
-        body = scene.bodies[_slowed(scene, force) or ""]
-        if sum(_slowed(scene, other) == body.name for other in slowing(scene)) == 1:
-            held = -math.log(damping) * body.mass
-            found |= {f"{force.name}.{name}": held for name in names}
-    return found
+    forces, coefficients = slowing(scene), dict[str, float]()
+    for force in forces:
+        body = scene.bodies[force.body or ""]
+        if sum(other.body == force.body for other in forces) == 1:
+            d = -math.log(damping) * body.mass
+            coefficients |= {f"{force.name}.{name}": d for name in force.numbers}
+    return coefficients
 
 
 def not_alike(scene: Scene, start: Start) -> tuple[str, str] | None:
     """The first of these forces that `space.damping` is not, by its name, and why; or None."""
     for force in slowing(scene):
-        if why := _unlike(scene, force):
-            return force.name, f"engine: {why}"
+        if force.unlike:
+            return force.name, f"engine: {force.unlike}"
     rates = _rates(scene)
     for force in slowing(scene):
         least, most = min(rates, key=rates.__getitem__), max(rates, key=rates.__getitem__)
         if rates[most] - rates[least] > ALIKE * rates[most]:
             what = f"{most} loses {rates[most]:g} 1/s and {least} {rates[least]:g}"
-            return force.name, f"engine: pymunk's space.damping slows all bodies alike: {what}"
+            return force.name, f"engine: {SLOWS} all bodies alike: {what}"
         if rates[most] > FASTEST:
-            return (
-                force.name,
-                f"engine: pymunk's space.damping has no number for {rates[most]:g} 1/s",
-            )
+            why = f"pymunk's space.damping has no number for {rates[most]:g} 1/s"
+            return force.name, f"engine: {why}"
         for body in scene.bodies.values():
             if not _stays_unturned(scene, body, start):
-                what = f"slows turning too, as that of {body.name}"
-                return force.name, f"engine: pymunk's space.damping {what}"
+                return force.name, f"engine: {SLOWS} turning too, as that of {body.name}"
     return None
-
-
-def _unlike(scene: Scene, force: Slowing) -> str:
-    """Why a force slows no body as a whole by its speed, or nothing."""
-    if force.exponent != 1.0:
-        return "pymunk has no friction by a power of the speed"
-    slows = "pymunk's space.damping slows"
-    if isinstance(force, Viscous):
-        if force.coefficient.forward != force.coefficient.backward:
-            return f"{slows} alike both ways, and {force.name} does not"
-        return "" if _slowed(scene, force) else f"{slows} against the ground, where no slide turns"
-    if force.along is not None:
-        return f"{slows} alike in all directions, and {force.name} does not"
-    if force.at.point != CENTER:
-        return f"{slows} a body as a whole, and {force.name} a point beside its centre"
-    return ""
-
-
-def _slowed(scene: Scene, force: Slowing) -> str | None:
-    """The body whose centre it slows against the ground; None where it is no such force."""
-    if isinstance(force, Drag):
-        return force.at.body
-    joint = scene.joints[force.joint]
-    still = [e for e in joint.refers() if e.body == GROUND and not scene.points[e.point].driven]
-    moving = [e.body for e in joint.refers() if e.body != GROUND]
-    return moving[0] if still and moving and not joint.turns else None
 
 
 def _rates(scene: Scene) -> dict[str, float]:
     """d/m [1/s] of each body."""
-    found = dict.fromkeys(scene.bodies, 0.0)
+    rates = dict.fromkeys(scene.bodies, 0.0)
     for force in slowing(scene):
-        d = force.coefficient if isinstance(force, Drag) else force.coefficient.forward
-        if body := _slowed(scene, force):
-            found[body] += d / scene.bodies[body].mass
-    return found
+        if force.body:
+            rates[force.body] += force.d / scene.bodies[force.body].mass
+    return rates
 
 
 def _stays_unturned(scene: Scene, body: Body, start: Start) -> bool:

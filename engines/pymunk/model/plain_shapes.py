@@ -40,6 +40,6 @@ def _shape(world: World, part: Part, name: str) -> Circle | Poly:
 
 
 def swell(world: World, seed: float) -> None:
-    """What the pasted lines do to what only touches: the shape grows by the seed [m]."""
+    """Grows each shape that only touches by the seed [m], as the pasted lines do."""
     for shape in set(world.plain.values()):
         shape.unsafe_set_radius(shape.radius + seed)

@@ -58,7 +58,7 @@ class Advised:
 
     @property
     def pasted(self) -> list[Candidate]:
-        """What is to be pasted: the recipes, or where there is none the nearest of all runs."""
+        """The candidates to paste: the recipes, or where there is none the nearest of all runs."""
         if self.kitchen is None or self.recipes is not None:
             return [recipe.candidate for _, recipe in self.wanted]
         nearest = best(self.kitchen)

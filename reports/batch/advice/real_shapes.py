@@ -20,7 +20,7 @@ Beside = Mapping[Candidate, Sequence[tuple[str, float, str]]]
 
 
 def shapes(engine: Engine, case: Case, start: Start) -> Sequence[Shape]:
-    """What stands for the case's scene in a user's model; none where only our own model does."""
+    """A user's own models of the case's scene; none where only our own model stands for it."""
     return engine.shapes(case.scene, start) if isinstance(engine, Plain) else ()
 
 

@@ -1,4 +1,4 @@
-"""What a case's motion shows that is no mistake of its file, and most likely not meant."""
+"""Warnings about a motion: it shows what is no mistake of its file, and most likely not meant."""
 
 from collections.abc import Iterator
 

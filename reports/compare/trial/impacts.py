@@ -1,4 +1,4 @@
-"""What a sample beside an impact may be: the motion before it or behind it, each continued.
+"""Samples beside impacts, compared with the motions before and behind them, each continued.
 
 An engine sees an impact at the end of a step, or of the next. Beside it the reference is behind it
 already and the engine is not, or the other way round, and neither is wrong.

@@ -24,7 +24,7 @@ from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.batch.selection import choose_engines
 from textmech.reports.compare.trial.start import first
-from textmech.reports.show.advice import advice_lines
+from textmech.reports.show.advice import advice_lines, shipped_lines
 
 ASKED = [
     ("creeping_block", "mujoco"), ("creeping_block", "pymunk"), ("sinking_ball", "mujoco"),
@@ -118,7 +118,7 @@ def test_advice_of_our_own_model_would_not_hold(tmp_path: Path) -> None:
 def test_the_nearest_is_printed_where_none_keeps_the_tolerance() -> None:
     one = advice("bouncing_disk.elastic", "mujoco")
     assert one.recipes is None
-    told = list(advice_lines(one))
+    told = [*shipped_lines(one), *advice_lines(one)]
     place = told.index("  the nearest")
     assert "wheel is a sphere geom" in told[2]
     assert any("stays ×" in line for line in told[:place])
@@ -128,6 +128,6 @@ def test_the_nearest_is_printed_where_none_keeps_the_tolerance() -> None:
 
 @pytest.mark.slow
 def test_what_is_measured_in_our_model_alone_says_so() -> None:
-    told = list(advice_lines(advice("heavy_on_light", "mujoco")))
+    told = list(shipped_lines(advice("heavy_on_light", "mujoco")))
     assert "measured in our model alone" in told[2]
     assert "1e-12 m" in told[2]

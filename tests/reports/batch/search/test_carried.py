@@ -71,7 +71,9 @@ def test_what_stands_on_the_same_is_carried_over(first: Told, tmp_path: Path) ->
     found = run(tmp_path, Known(first.read, first.verdicts))
     assert not found.searched
     assert found.read == first.read
-    assert carried(found.causes, first.read).startswith(f"causes: those of {len(first.read)} rows")
+    assert carried(found.causes, first.read).startswith(
+        f"causes: {len(first.read)} rows keep the committed ones"
+    )
     assert carried(first.causes, {}) == ""
 
 
