@@ -183,7 +183,7 @@ def _loaded(package: str) -> set[str]:
 
 def _reached(packages: set[str]) -> set[str]:
     """The packages, what those that are loaded hold, and what these hold in turn."""
-    found, left = set[str](), set(packages)
+    found, left = set[str](), packages - {"__main__"}  # a program holds what it has imported
     while left:
         found.add(name := left.pop())
         left |= _loaded(name) - found - sys.stdlib_module_names - {OURS, *BASIS} - WINDOWS
