@@ -1,11 +1,15 @@
-"""Shipped cases with their solutions, and cases typed in a test."""
+"""Shipped cases with their solutions, those of `tests/scenes` by name, and cases typed in a test."""
 
+import json
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
+from textmech.cases.language.document import read
 from textmech.cases.load import load
 from textmech.reference.solve import Solution, solve
 from textmech.reference.solve import mechanism as generated
@@ -36,6 +40,38 @@ def solved(name: str) -> Solution:
 def mechanism(case: Case) -> Any:
     """The generated mechanism of a case, at its start: in the plane, or in space."""
     return generated(case)
+
+
+SCENES = Path(__file__).parents[1] / "scenes"
+
+
+def scene_text(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> str:
+    """Returns the case file `tests/scenes/<name>.yaml` with other parameters and other entries.
+
+    Every parameter must be one of the file. changes: as in a variant, a map goes into a map key by
+    key, anything else replaces what stands there; None removes the key.
+    """
+    data = read(SCENES / f"{name}.yaml").data
+    unknown = set(parameters) - set(data.get("parameters", {}))
+    assert not unknown, f"{name}.yaml has no parameter {', '.join(sorted(unknown))}"
+    return json.dumps(_merged(data, {"parameters": parameters, **(changes or {})}), indent=1)
+
+
+def scene(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> Case:
+    """Returns the case of `scene_text`: `scene("slope", mu=0.3)`."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / f"{name}.yaml"
+        path.write_text(scene_text(name, changes, **parameters), encoding="utf-8")
+        return load(path)[0]
+
+
+def _merged(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    merged = dict(data)
+    for key, value in changes.items():
+        old = data.get(key)
+        both = isinstance(old, Mapping) and isinstance(value, Mapping)
+        merged[key] = _merged(old, value) if both else value  # type: ignore[arg-type]
+    return {key: value for key, value in merged.items() if value is not None}
 
 
 HEAD = """\
