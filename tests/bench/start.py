@@ -1,4 +1,4 @@
-"""Measures the CPU time of commands before their work begins, each in own processes, with bounds.
+"""What commands cost before their work begins, in processes of their own.
 
 A person waits for it each time, so what is imported at the top of a module that all commands read
 is paid for by all of them.
@@ -8,34 +8,25 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from textmech.cases.find import shipped
 
+from .row import Row
+
 UNIT = "import numpy"  # what nothing here does without: a measure of the machine
 COMMAND = "from textmech.reports.start import main; main()"
-CASE = "four_bar"
 # s, where they were promised; elsewhere the ratio tells. Of check a third and more is the
 # reference's own work.
 BOUNDS = {"--help": 0.2, "list": 0.5, "show": 0.5, "check": 0.8, "import": 0.5}
 
 
-@dataclass(frozen=True)
-class Begun:
-    """seconds: the least of the rounds; over: that of `import numpy` in the same run."""
-
-    name: str
-    seconds: float
-    bound: float
-    over: float
-
-
-def begun(rounds: int) -> Iterator[Begun]:
-    """Each of them, in turn with what they are measured by."""
+def starts(rounds: int) -> Iterator[Row]:
+    """Yields a row for each of BOUNDS: the least of the rounds, over that of `import numpy`."""
     unit = least(["-c", UNIT], rounds)
     for name, words in lines().items():
         seconds = least(words, rounds)
-        yield Begun(name, seconds, BOUNDS[name], seconds / unit)
+        note = f"{seconds / unit:.1f} of {UNIT}"
+        yield Row("start", name, seconds=seconds, aim=BOUNDS[name], note=note)
 
 
 def lines() -> dict[str, list[str]]:
@@ -43,21 +34,21 @@ def lines() -> dict[str, list[str]]:
     return {
         "--help": ["-c", COMMAND, "--help"],
         "list": ["-c", COMMAND, "list"],
-        "show": ["-c", COMMAND, "show", CASE, "--engine", "mujoco.tuned"],
+        "show": ["-c", COMMAND, "show", "four_bar", "--engine", "mujoco.tuned"],
         "check": ["-c", COMMAND, "check", str(shipped()["bar_pendulum"])],
         "import": ["-c", "from textmech.reports import run"],
     }
 
 
 def least(words: Sequence[str], rounds: int) -> float:
-    """CPU seconds of Python with these words, of user and system; modules are compiled before."""
+    """Returns CPU seconds of Python with these words, user and system; compiled before."""
     command = [sys.executable, *words]
     env = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-    found = []
+    seconds = []
     for _ in range(rounds + 1):
         before = os.times()
         subprocess.run(command, env=env, capture_output=True, check=True)
         after = os.times()
         user = after.children_user - before.children_user
-        found.append(user + after.children_system - before.children_system)
-    return min(found[1:])
+        seconds.append(user + after.children_system - before.children_system)
+    return min(seconds[1:])
