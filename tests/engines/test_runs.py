@@ -32,9 +32,7 @@ def test_a_blow_up_is_diverged(
     start = {"bead": (0.0, -0.6, 0.0, 0.0, 0.0, 0.0)}
     with pytest.raises(Diverged, match=SAYS[engine.name]):
         moved(engine, hung, start, np.linspace(0.0, 10.0, 11), 0.01)
-    begin = LOOPS[engine.name](engine, hung, start, 0.01, planned(engine, hung, start))
-    assert begin
-    begin(0.01).take(1000)
+    LOOPS[engine.name](engine, hung, start, 0.01, planned(engine, hung, start))()(1000)
     assert not list(tmp_path.iterdir())
 
 
@@ -54,23 +52,6 @@ def test_samples_may_be_uneven(engine: Engine) -> None:
     even = moved(engine, scene, start, np.linspace(0.0, 0.05, 6), 1e-3).states["bar"]
     uneven = moved(engine, scene, start, np.array([0.0, 0.01, 0.04, 0.05]), 1e-3).states["bar"]
     assert np.array_equal(uneven, even[[0, 1, 4, 5]])
-
-
-@pytest.mark.parametrize("engine", SETTINGS, ids=words)
-def test_the_plain_loop_makes_the_same_motion(engine: Engine) -> None:
-    """In pieces too, and begun anew with another step."""
-    scene, start = begun("towed_pendulum")
-    begin = LOOPS[engine.name](engine, scene, start, 1e-3, planned(engine, scene, start))
-    assert begin
-    for step in (1e-3, 5e-4):
-        loop = begin(step)
-        loop.take(3)
-        loop.take(round(0.2 / step) - 3)
-        plan = planned(engine, scene, start).held_at(1e-3)
-        times = np.array([0.0, 0.2])
-        run = engine.run(scene, start, times, step, plan, reactions=())
-        for body, states in run.states.items():
-            assert loop.states()[body] == pytest.approx(states[-1].tolist(), rel=1e-12, abs=1e-12)
 
 
 VERSION = {"mujoco": mujoco.__version__, "pymunk": pymunk.version}

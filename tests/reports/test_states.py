@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from bench.adapters import Amount
 from bench.adapters import rows as rows_of_bench
 from given import scenes
 from given.claims import CHAIN, PLANE, claimed
@@ -181,4 +180,4 @@ def test_what_is_kept_has_a_row_for_each_state(tmp_path: Path) -> None:
 
 def test_it_is_no_case_for_the_bench(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="is a claim about states: nothing is run"):
-        next(rows_of_bench(claimed(tmp_path, PLANE), [MUJOCO], Amount()))
+        next(rows_of_bench(claimed(tmp_path, PLANE), [MUJOCO], 1, 1))

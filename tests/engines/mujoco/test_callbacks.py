@@ -95,9 +95,7 @@ def test_a_script_does_not_reset_what_blows_up(
     with pytest.raises(Diverged, match=r"MuJoCo warns: .*unstable"):
         moved(engine, stiff, begin, np.linspace(0, 100.0, 11), 0.1)
     plan = planned(engine, stiff, begin)
-    loop = LOOPS["mujoco"](engine, stiff, begin, 0.1, plan)
-    assert loop
-    loop(0.1).take(1000)
+    LOOPS["mujoco"](engine, stiff, begin, 0.1, plan)()(1000)
     model, _ = loaded(engine.script(stiff, begin, 0.1, plan))
     assert model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_AUTORESET
     assert not list(tmp_path.iterdir())

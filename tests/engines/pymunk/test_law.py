@@ -1,18 +1,15 @@
 """Our laws on bodies that turn: at the middle of a step, at the places points have there."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
-import pymunk
 import pytest
-from bench.pymunk_loop import acts
 from given.closed_motions import sliding_then_rolling
-from given.engine_scenes import RADIUS, WHEEL, G, guided, incline, launched, machine, pin, touching
+from given.engine_scenes import RADIUS, WHEEL, G, incline, launched, machine, pin, touching
 from given.planning import TUNED, moved, planned
 from given.swings import generated
 
-from textmech.cases.scene import GROUND, Anchor, Bounds, Damper, Motor, Scene, Signal
+from textmech.cases.scene import GROUND, Anchor, Damper, Motor, Scene, Signal
 from textmech.cases.scene.shape import disk
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
 from textmech.engines.engine import Start
@@ -99,27 +96,3 @@ def test_a_motor_turns_the_second_part_of_its_joint() -> None:
     world = build(scene, {"wheel": (0.0,) * 6}, {}, "law")
     load = motor_load(world, hand, "wheel")(0.5, 1e-3, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     assert load == pytest.approx((0.0, 0.0, 0.155))
-
-
-def stopped(static: float) -> list[float]:
-    """m/s: what a block does that 1 N stops after 64 steps, exactly, and 3 N draw back later."""
-    scene, step = guided(None, Bounds(static, static), Bounds(1.0, 1.0)), 1 / 128
-    space, body = pymunk.Space(), pymunk.Body(1.0, 1.0)
-    space.add(body)
-    body.velocity = 0.5, 0.0
-    (act,) = acts(replace(scene, gravity=(0.0, 0.0)), space, {"block": body})
-    found = []
-    for n in range(100):
-        body.force = (-3.0 if n >= 80 else 0.0), 0.0
-        act()
-        space.step(step)
-        found.append(body.velocity.x)
-    return found
-
-
-def test_a_block_whose_speed_is_zero_to_the_bit_has_stopped() -> None:
-    """Going on with its old sense, it would be stopped once more, and lose what it has gained."""
-    found = stopped(2.0)
-    assert found[:64] == [0.5 - (n + 1) / 128 for n in range(64)]
-    assert found[64:80] == [0.0] * 16
-    assert found[80:] == [-2.0 * (n + 1) / 128 for n in range(20)]
