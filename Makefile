@@ -55,13 +55,12 @@ lint: $(LINTING)
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright
 
-# How many of COUNT mistakes, drawn by chance and planted in a copy, the tests see at the first try;
-# with HOW="--quick --out FILE" what `make quick` would see.
+# How many of COUNT mistakes, drawn by chance and planted in a clone, `make quick` sees.
 COUNT ?= 150
 SEED ?= 1
 mutants: $(READY)
 	$(INSTALL) '.[mutants]'
-	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED) $(HOW)
+	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED)
 
 # What a person waits for, in a fresh clone of the last commit: half an hour of an idle machine.
 speed: $(READY)

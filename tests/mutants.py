@@ -1,170 +1,175 @@
-"""How many of mistakes drawn by chance the tests see at the first try: `make mutants`.
+"""How many of mistakes drawn by chance `make quick` sees at the first try: `make mutants`.
 
-Each is planted alone in a copy of the tree, never here, and asked of the tests of its own room. The
-list, reports/mutation.csv, is written after each, and those in it are not tried again; of another
-draw's it keeps none. Its last two columns are typed by a person and kept: why a mistake survives,
-and what was done then.
+cosmic-ray plants each alone in a clone of the last commit, never here, and runs there what `make
+quick` asks of the changed file. The list, reports/mutation.csv, is written at the end. Its last two
+columns are typed by a person: why a mistake survives, and what was done then.
 """
 
 import argparse
-import csv
-import queue
+import os
+import random
+import re
 import subprocess
 import sys
 import tempfile
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import asdict, dataclass, fields
+import threading
+import uuid
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from drawn import Mistake, draw, texts, tool
-from tried import SEEN, SURVIVED, TIMED_OUT, UNDECIDED, Copy, Outcome, Sound, tried
+import pandas as pd
 
 from textmech.reports.data.row import MUTATION
 
 ROOT = Path(__file__).parents[1]
-LIST = ROOT / "reports" / MUTATION
-FOLDERS = ("cases", "reference", "engines", "reports")
+NAME = "textmech"  # of the folder of a clone: as the package is called, so that it is imported
+FOLDERS = ["cases", "reference", "engines", "reports"]
+EACH = 60  # s of one test: it takes 1.5 s where it is sound
+ALL = 1200.0  # s of all tests of one mistake
+MEMORY = 8_000_000  # KiB of one process
+
+# What stays among numbers or truths: a shift of floats, or a decorator that is gone, only raises.
+NUMBERS, ORDERED = "Add|Sub|Mul|Div|FloorDiv|Mod|Pow", "Lt|LtE|Gt|GtE|Eq|NotEq"
+OPERATORS = re.compile(
+    rf"core/(ReplaceBinaryOperator_({NUMBERS})_({NUMBERS})"
+    rf"|ReplaceComparisonOperator_(({ORDERED})_({ORDERED})|Is_IsNot|IsNot_Is)"
+    r"|AddNot|ExceptionReplacer|NumberReplacer|ReplaceAndWithOr|ReplaceOrWithAnd"
+    r"|ReplaceBreakWithContinue|ReplaceContinueWithBreak|ReplaceFalseWithTrue|ReplaceTrueWithFalse"
+    r"|ReplaceUnaryOperator_Delete_(Not|USub)|ZeroIterationForLoop)"
+)
+COMMAND = (
+    "sh -c 'ulimit -c 0 -v {memory}; files=$({python} tests/touched.py); exec {python} -m pytest "
+    '-x -q -m "not slow" -p no:cacheprovider --timeout {each} {engines} $files\''
+)
+CONFIG = """\
+[cosmic-ray]
+module-path = {folders}
+timeout = {all}
+excluded-modules = []
+test-command = {command!r}
+[cosmic-ray.distributor]
+name = "local"
+"""
 
 
-@dataclass
-class Row:
-    """A line of the list. outcome: at the first try, whatever was done after that."""
-
-    seed: int
-    number: int
-    file: str
-    line: int
-    operator: str
-    change: str
-    outcome: str
-    seen_by: str
-    tests: int
-    tool: str
-    commit: str
-    why: str = ""
-    done: str = ""
+def kind(operator: str) -> str:
+    """Returns what all operators share that put another thing of the same kind there."""
+    return operator.rsplit("_", 2)[0] if "Operator_" in operator else operator
 
 
-def rows(file: Path) -> list[Row]:
-    """What is in the list."""
-    if not file.is_file():
-        return []
-    with file.open(encoding="utf-8", newline="") as lines:
-        read = list(csv.DictReader(lines))
-    return [_row(row) for row in read]
+def draw(items: Sequence[Any], count: int, seed: int) -> list[Any]:
+    """Returns so many work items of cosmic-ray, drawn by chance, each on another place.
+
+    The place and the kind first: a product has six operators in its place, a truth one.
+    """
+    places: defaultdict[tuple[str, ...], list[Any]] = defaultdict(list)
+    for item in items:
+        (mutation,) = item.mutations
+        if OPERATORS.fullmatch(mutation.operator_name):
+            place = (str(mutation.module_path), str(mutation.start_pos))
+            places[*place, kind(mutation.operator_name)].append(item)
+    chance = random.Random(seed)
+    chosen = chance.sample(sorted(places), min(count, len(places)))
+    return [chance.choice(sorted(places[place], key=_order)) for place in chosen]
 
 
-def _row(texts_: Mapping[str, Any]) -> Row:
-    return Row(
-        **{**texts_, **{name: int(texts_[name]) for name in ("seed", "number", "line", "tests")}}
-    )
+def _order(item: Any) -> tuple[str, int]:
+    (mutation,) = item.mutations
+    return mutation.operator_name, mutation.occurrence
 
 
-def write(file: Path, found: Iterable[Row]) -> None:
-    """All at once: who is ended meanwhile leaves the list as it was."""
-    beside = file.with_suffix(".new")
-    with beside.open("w", encoding="utf-8", newline="") as lines:
-        out = csv.DictWriter(lines, [f.name for f in fields(Row)], lineterminator="\n")
-        out.writeheader()
-        out.writerows(asdict(row) for row in sorted(found, key=lambda r: (r.seed, r.number)))
-    beside.replace(file)
+def changed(diff: str) -> str:
+    """Returns `before -> after` of the lines that a diff changes, each on one line."""
+    lines = [line for line in diff.splitlines() if not line.startswith(("---", "+++"))]
+    before, after = (" ".join(x[1:].strip() for x in lines if x[:1] == sign) for sign in "-+")
+    return f"{before} -> {after}"
 
 
-def key(row: Row | Mistake) -> tuple[str, str, str]:
-    """What makes two mistakes the same, wherever the line has moved to."""
-    return row.file, row.operator, row.change
+def outcome(result: Any) -> tuple[str, str]:
+    """Returns `seen`, `timeout` or `survived`, and the test that saw it."""
+    if result.test_outcome == "survived":
+        return "survived", ""
+    output = result.output or ""
+    test = re.search(r"^(?:FAILED|ERROR) (\S+)", output, re.MULTILINE)
+    if "Timeout" in output or output == "timeout":
+        return "timeout", test[1] if test else ""
+    return "seen", test[1] if test else "no test starts"
 
 
-def told(found: Sequence[Row], seed: int, drawn: int) -> str:
-    """The numbers, and who survives, each with its place."""
-    count = Counter(row.outcome for row in found)
-    seen = count[SEEN] + count[TIMED_OUT]
-    lines = [
-        f"{row.file}:{row.line}: {row.change}" + (f"  ({row.why})" if row.why else "")
-        for row in found
-        if row.outcome in (SURVIVED, UNDECIDED)
-    ]
-    first = f"{seen} of {len(found)} planted mistakes seen at the first try"
-    if count[TIMED_OUT]:
-        first += f" ({count[TIMED_OUT]} by a time-out)"
-    if count[UNDECIDED]:
-        first += f"; {count[UNDECIDED]} not within the time for their tests"
-    by = ", ".join(sorted({row.tool for row in found}))
-    return "\n".join([*lines, f"{first}; seed {seed}, {drawn} drawn, by {by}"])
+def run(count: int, seed: int, jobs: int) -> Iterator[dict[str, Any]]:
+    """Yields a row of the list for each mistake, tried in so many clones at once."""
+    from cosmic_ray.work_db import WorkDB, use_db  # pyright: ignore[reportMissingImports]
+
+    git = ["git", "describe", "--always", "--dirty", "--exclude=*"]
+    commit = subprocess.check_output(git, cwd=ROOT, text=True).strip()
+    with tempfile.TemporaryDirectory(prefix="textmech-mutants-") as folder:
+        clones = [Path(folder) / str(job) / NAME for job in range(jobs)]
+        for clone in clones:
+            _clone(clone)
+        _cosmic_ray(clones[0], "init", "all.sqlite")
+        with use_db(str(clones[0].parent / "all.sqlite"), WorkDB.Mode.open) as db:
+            drawn = draw(list(db.work_items), count, seed)
+        threads = []
+        for job, clone in enumerate(clones):
+            with use_db(str(clone.parent / "drawn.sqlite"), WorkDB.Mode.create) as db:
+                db.add_work_items(drawn[job::jobs])
+            words = (clone, "exec", "drawn.sqlite")
+            threads.append(threading.Thread(target=_cosmic_ray, args=words))
+            threads[-1].start()
+        for thread in threads:
+            thread.join()
+        number = {item.job_id: i for i, item in enumerate(drawn, 1)}
+        for clone in clones:
+            with use_db(str(clone.parent / "drawn.sqlite"), WorkDB.Mode.open) as db:
+                places = {item.job_id: item.mutations[0] for item in db.work_items}
+                for job_id, result in db.results:
+                    place, (word, seen_by) = places[job_id], outcome(result)
+                    yield {
+                        "seed": seed, "number": number[job_id], "file": str(place.module_path),
+                        "line": place.start_pos[0], "operator": place.operator_name,
+                        "change": changed(result.diff or ""), "outcome": word, "seen_by": seen_by,
+                        "tool": f"cosmic-ray {version('cosmic-ray')}", "commit": commit,
+                        "why": "", "done": "",
+                    }  # fmt: skip
 
 
-def run(
-    mistakes: Sequence[Mistake],
-    seed: int,
-    jobs: int,
-    file: Path,
-    root: Path = ROOT,
-    *,
-    quick: bool = False,
-) -> None:
-    """Tries those that are not in the list yet, in the drawn order, on so many copies."""
-    known = {key(row): row for row in chosen(file, mistakes)}
-    free: queue.SimpleQueue[Copy] = queue.SimpleQueue()
-    waiting = [one for one in mistakes if key(one) not in known]
-
-    def one(mistake: Mistake) -> tuple[Mistake, Outcome]:
-        copy = free.get()
-        try:
-            return mistake, tried(mistake, copy, sound, quick=quick)
-        finally:
-            free.put(copy)
-
-    words = ["git", "describe", "--always", "--dirty", "--exclude=*"]
-    state = subprocess.run(words, cwd=root, capture_output=True, text=True, check=True).stdout
-    with tempfile.TemporaryDirectory(prefix="textmech-mutants-") as place:
-        sound = Sound(Copy(Path(place) / "sound").fill(root))
-        for i in range(jobs):
-            free.put(Copy(Path(place) / str(i)).fill(root))
-        with ThreadPoolExecutor(jobs) as pool:
-            tasks = [pool.submit(one, mistake) for mistake in waiting]
-            try:
-                for task in as_completed(tasks):
-                    mistake, out = task.result()
-                    known[key(mistake)] = row(seed, mistake, out, state.strip())
-                    write(file, known.values())
-                    print(_line(mistake, out), flush=True)
-            finally:
-                pool.shutdown(wait=False, cancel_futures=True)
+def _clone(clone: Path) -> None:
+    subprocess.run(["git", "clone", "--quiet", str(ROOT), str(clone)], check=True)
+    engines = "--textmech-engine=mujoco.tuned --textmech-engine=pymunk.tuned"
+    command = COMMAND.format(memory=MEMORY, python=sys.executable, each=EACH, engines=engines)
+    text = CONFIG.format(folders=FOLDERS, all=ALL, command=command)
+    (clone.parent / "config.toml").write_text(text, encoding="utf-8")
 
 
-def row(seed: int, one: Mistake, out: Outcome, state: str) -> Row:
-    """What the list says of it."""
-    place = (seed, one.number, one.file, one.line, one.operator, one.change)
-    return Row(*place, out.said, out.by, out.run, tool(), state)
+def _cosmic_ray(clone: Path, what: str, session: str) -> None:
+    words = [sys.executable, "-m", "cosmic_ray.cli", what, "../config.toml", f"../{session}"]
+    subprocess.run(words, cwd=clone, check=True, env=environment(clone))
 
 
-def _line(one: Mistake, out: Outcome) -> str:
-    return f"{one.number:4} {out.said:16} {one.file}:{one.line}: {one.change}  {out.by}"
-
-
-def chosen(file: Path, mistakes: Sequence[Mistake]) -> list[Row]:
-    """Those of the list that are drawn now."""
-    found: Mapping[tuple[str, str, str], Row] = {key(row): row for row in rows(file)}
-    return [found[key(one)] for one in mistakes if key(one) in found]
+def environment(clone: Path) -> dict[str, str]:
+    """Returns the environment in which a clone's own package is imported."""
+    path = f"{clone.parent}{os.pathsep}{clone / 'tests'}"
+    cache = str(clone.parent / f"cache-{uuid.uuid4().hex}")
+    return {**os.environ, "PYTHONPATH": path, "TEXTMECH_CACHE": cache, "OMP_NUM_THREADS": "1"}
 
 
 def main(words: Sequence[str]) -> None:
-    """Draws, tries, writes and tells."""
-    asked = argparse.ArgumentParser(description="How many planted mistakes do the tests see?")
-    asked.add_argument("--count", type=int, default=150, help="how many are drawn (150)")
-    asked.add_argument("--seed", type=int, default=1, help="of the draw (1)")
-    asked.add_argument("--jobs", type=int, default=2, help="how many at once (2)")
-    asked.add_argument("--out", type=Path, default=LIST, help="the list (reports/mutation.csv)")
-    asked.add_argument("--quick", action="store_true", help="only what `make quick` asks")
-    told_ = asked.parse_args(words)
-    if told_.quick and told_.out == LIST:
-        asked.error("--quick needs --out: the list holds what all tests of a room see")
-    mistakes = draw(texts(ROOT, FOLDERS), told_.count, told_.seed)
-    run(mistakes, told_.seed, told_.jobs, told_.out, quick=told_.quick)
-    print(told(chosen(told_.out, mistakes), told_.seed, len(mistakes)))
+    """Draws, tries, writes and prints the count."""
+    parser = argparse.ArgumentParser(description="How many planted mistakes does make quick see?")
+    parser.add_argument("--count", type=int, default=150, help="how many are drawn (150)")
+    parser.add_argument("--seed", type=int, default=1, help="of the draw (1)")
+    parser.add_argument("--jobs", type=int, default=2, help="how many at once (2)")
+    parser.add_argument("--out", type=Path, default=ROOT / "reports" / MUTATION)
+    chosen = parser.parse_args(words)
+    table = pd.DataFrame(run(chosen.count, chosen.seed, chosen.jobs)).sort_values("number")
+    table.to_csv(chosen.out, index=False)
+    survived = table[table["outcome"] == "survived"]
+    for row in survived.itertuples():
+        print(f"{row.file}:{row.line}: {row.change}")
+    print(f"{len(table) - len(survived)} of {len(table)} planted mistakes seen at the first try")
 
 
 if __name__ == "__main__":
