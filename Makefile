@@ -8,8 +8,15 @@ INSTALL := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 # What is compiled is kept: else every worker compiles all modules and all tests anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: reports advice test test-slow test-all everywhere processors quick lint mutants speed bench install clean
+.PHONY: help reports advice test test-slow test-all everywhere processors quick lint mutants speed bench install clean
 
+# What can be made; `make` alone says it too.
+help:
+	@awk '/^# /{text = text substr($$0, 2)} \
+	/^[a-z-]+:/{if (text) printf "make %-11s%s\n\n", substr($$1, 1, index($$1, ":") - 1), text} \
+	!/^#/{text = ""}' Makefile | fold -s -w 100
+
+# Every CSV report anew, with causes, and their page.
 reports: $(READY)
 	$(VENV)/bin/textmech run --causes --page
 
@@ -21,6 +28,7 @@ advice: $(READY)
 test: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal -m "not slow"
 
+# The slow ones alone.
 test-slow: $(READY)
 	$(VENV)/bin/pytest -n auto --dist worksteal -m slow
 
@@ -49,15 +57,16 @@ quick: $(LINTING)
 	$(VENV)/bin/pytest -q -n auto -m "not slow" $(addprefix --textmech-engine=,$(TUNED)) \
 		$$($(VENV)/bin/python tests/touched.py)
 
+# Style and types.
 lint: $(LINTING)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	mkdir -p $(VENV)/typing && ln -sfn ../.. $(VENV)/typing/textmech
 	$(VENV)/bin/pyright
 
-# How many of COUNT mistakes, drawn by chance and planted in a clone, `make quick` sees.
 COUNT ?= 150
 SEED ?= 1
+# How many of COUNT mistakes, drawn by chance and planted in a clone, `make quick` sees.
 mutants: $(READY)
 	$(INSTALL) '.[mutants]'
 	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED)
@@ -71,8 +80,10 @@ speed: $(READY)
 bench: $(READY)
 	PYTHONPATH=tests $(VENV)/bin/python -m bench $(WHAT)
 
+# The package and what its tests need, in `.venv`; every other target does it by itself.
 install: $(READY)
 
+# `.venv` is removed.
 clean:
 	rm -rf $(VENV)
 
