@@ -1,13 +1,15 @@
 """Which equations count as used: those whose function runs."""
 
 import ast
-from collections.abc import Callable
+from collections.abc import Callable, Container
+from functools import cached_property
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 from given import scenes
 
-from textmech.reference.coverage import equations, noting
+from textmech.reference.coverage import Numbered, equations, noting
 from textmech.reference.laws import momentum
 from textmech.reference.laws.force import spring, weight
 
@@ -88,29 +90,93 @@ def test_what_ran_before_is_not_noted() -> None:
     assert noted(lambda: spring(1.0, 0.5, (1.0, 0.0))) == {"2.82"}
 
 
-def marks(text: str) -> list[str]:
-    """The functions of a module's text that state equations, or are marked, but not both."""
+def wrongly_marked(text: str, numbered: Container[str]) -> list[str]:
+    """The functions of a module's text that state equations and are not noted, or are in vain.
+
+    numbered: its classes whose methods are noted by their docstrings.
+    """
     wrong = []
-    for node in ast.walk(ast.parse(text)):
-        if not isinstance(node, ast.FunctionDef):
-            continue
-        marked = any(isinstance(d, ast.Name) and d.id == "equation" for d in node.decorator_list)
-        only_said = all(isinstance(line, ast.Expr | ast.Raise) for line in node.body)
-        if marked != (bool(equations(ast.get_docstring(node))) and not only_said):
-            wrong.append(node.name)
+    for parent in ast.walk(ast.parse(text)):
+        for node in ast.iter_child_nodes(parent):
+            if not isinstance(node, ast.FunctionDef):
+                continue
+            marked = any(
+                isinstance(d, ast.Name) and d.id == "equation" for d in node.decorator_list
+            )
+            only_said = all(isinstance(line, ast.Expr | ast.Raise) for line in node.body)
+            states = bool(equations(ast.get_docstring(node))) and not only_said
+            if isinstance(parent, ast.ClassDef):
+                states = states and parent.name not in numbered
+            if marked != states:
+                wrong.append(node.name)
     return wrong
+
+
+def numbered_in(file: Path) -> set[str]:
+    """The names of a module's classes whose methods note their equations."""
+    module = import_module(
+        ".".join(("textmech.reference", *file.relative_to(REFERENCE).parts))[:-3]
+    )
+    classes = (item for item in vars(module).values() if isinstance(item, type))
+    return {each.__name__ for each in classes if issubclass(each, Numbered)}
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("an equation that is not marked as one")
-def test_each_equation_is_marked() -> None:
+def test_each_equation_is_noted() -> None:
     """Those whose body does something: an interface only says."""
     texts = {file: file.read_text(encoding="utf-8") for file in REFERENCE.rglob("*.py")}
-    assert {file.name: wrong for file, text in texts.items() if (wrong := marks(text))} == {}
-    assert sum(text.count("@equation\n") for text in texts.values()) > 600
+    found = {file.name: wrongly_marked(text, numbered_in(file)) for file, text in texts.items()}
+    assert {name: wrong for name, wrong in found.items() if wrong} == {}
     sound = next(text for file, text in texts.items() if file.name == "voronets.py")
-    assert "accelerations" in marks(sound.replace("@equation\n", "", 1))
-    assert marks('@equation\ndef f():\n    """Not one."""\n    return 1\n') == ["f"]
+    assert "accelerations" in wrongly_marked(sound.replace("@equation\n", "", 1), ())
+    linkage = next(text for file, text in texts.items() if file.name == "four_bar.py")
+    assert "accelerations" in wrongly_marked(linkage, ())
+    assert wrongly_marked('@equation\ndef f():\n    """Not one."""\n    return 1\n', ()) == ["f"]
+
+
+class Ladder(Numbered):
+    """Its methods are all kinds that a class may have."""
+
+    def method(self) -> float:
+        """(2.1) one."""
+        return 1.0
+
+    @property
+    def value(self) -> float:
+        """(2.2) two."""
+        return 2.0
+
+    @cached_property
+    def kept(self) -> float:
+        """(2.3) three."""
+        return 3.0
+
+    @staticmethod
+    def apart() -> float:
+        """(2.4) four."""
+        return 4.0
+
+    def other(self) -> float:
+        """Of no equation."""
+        return 5.0
+
+
+def test_each_kind_of_method_is_noted() -> None:
+    ladder = Ladder()
+    assert noted(lambda: ladder.method()) == {"2.1"}
+    assert noted(lambda: ladder.value) == {"2.2"}
+    assert noted(lambda: ladder.kept) == {"2.3"}
+    assert noted(ladder.apart) == {"2.4"}
+    assert noted(lambda: ladder.other()) == set()
+
+
+def test_what_cannot_be_noted_is_refused() -> None:
+    with pytest.raises(TypeError, match="cannot be noted"):
+
+        class Wrong(Numbered):
+            class Inner:
+                """(2.5) A class is no function."""
 
 
 @pytest.mark.slow
