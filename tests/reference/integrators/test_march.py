@@ -39,13 +39,6 @@ def test_a_step_cut_short_does_not_shorten_those_behind_it():
 
 
 @BOTH
-def test_a_sample_shared_by_two_grids_has_the_same_state(method):
-    coarse = method(pendulum, [0.0, 5.0, 10.0], [2.0, 0.0], tolerance=1e-14)
-    fine = method(pendulum, np.linspace(0.0, 10.0, 101), [2.0, 0.0], tolerance=1e-14)
-    assert np.abs(coarse.y - fine.y[::50]).max() < 1e-12
-
-
-@BOTH
 def test_rest_at_the_origin(method):
     """No component has a size there; one drawn out of rest by a force must still be followed."""
     assert not method(pendulum, [0.0, 10.0], [0.0, 0.0]).y.any()

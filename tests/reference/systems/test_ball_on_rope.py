@@ -56,11 +56,6 @@ def test_what_it_cannot_say_of_its_events() -> None:
     assert above.closed_events(1.4) is None
 
 
-def test_a_start_beyond_the_rope_is_none() -> None:
-    with pytest.raises(ValueError, match="within the rope's length"):
-        example("ball_on_rope", x0=0.9, y0=0.6)
-
-
 def thrown_back(self: BallOnRope, t: float, q: Any, v: Any) -> Any:
     n = q / np.linalg.norm(q)
     return "swings", self.L * n, v - 1.01 * (v @ n) * n

@@ -6,9 +6,6 @@ import mpmath
 import numpy as np
 import pytest
 from given.examples import example
-from scipy.special import ellipj
-
-from textmech.reference.systems.elliptic import jacobi
 
 _RATIOS = ("cd", "sd", "nd")  # Glaisher's cn/dn, sn/dn, 1/dn
 
@@ -36,10 +33,3 @@ def test_bar_pendulum_closed_form_against_mpmath(degrees: float):
             margin = 1e-13 + 3e-15 / float(k1)
             assert abs(known[0][0] - (mpmath.mpf(phi0) + theta - theta0)) < margin
             assert abs(known[1][0] - rate) < Omega * margin
-
-
-def test_jacobi_functions_against_scipy_and_at_the_ends_of_the_modulus():
-    for u in np.linspace(-20, 20, 81):
-        sn, cn, _, _ = ellipj(u, 0.36)
-        assert jacobi(u, 0.8) == pytest.approx((sn, cn), abs=1e-14)
-        assert jacobi(u, 1.0) == pytest.approx((math.sin(u), math.cos(u)), abs=1e-14)

@@ -127,11 +127,6 @@ def test_a_trunk_that_never_says_so_is_seen(monkeypatch: pytest.MonkeyPatch) -> 
         test_a_leg_of_the_trunk_that_pulls_or_passes_through_is_said()
 
 
-def test_a_start_that_leaves_the_leg_is_refused() -> None:
-    with pytest.raises(ValueError, match="shortened at touch-down"):
-        example("spring_mass_jump", vx0=-9.0)
-
-
 def apex_to_apex(height: float, alpha: float, energy: float) -> float:
     """The next apex [m] of the running model: the leg is set at alpha in each flight.
 

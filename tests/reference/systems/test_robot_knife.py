@@ -12,8 +12,7 @@ from given.mutants import mutant
 from given.robots import robot, states
 
 from textmech.reference.formalisms import lagrange
-from textmech.reference.motion.follow import follow
-from textmech.reference.system import Mode, Only
+from textmech.reference.system import Mode
 from textmech.reference.systems.robots import robot_knife
 from textmech.reference.systems.robots.arm import places
 
@@ -72,19 +71,6 @@ def test_height_is_that_of_the_rows() -> None:
         assert difference(slopes, mode.f_a(t, q)[0]) < LIMIT
         height = point(mode, t, q, v0)[0][2] - point(mode, t, q0, v0)[0][2]
         assert abs(mode.f(t, q)[0] - height) < LIMIT
-
-
-@pytest.mark.slow
-def test_motion_stays_on_its_plane_and_keeps_its_energy() -> None:
-    mode = robot("robot_knife")
-    times = np.linspace(0.0, 0.3, 4)
-    rows = [(t, *mode.parted(y)) for t, y in zip(times, follow(Only(mode), times).y, strict=True)]
-    energies = [mode.T(t, q, v) + mode.U(t, q) for t, q, v in rows]
-    assert np.ptp(energies) < LIMIT * max(map(abs, energies))
-    for t, q, v in rows:
-        assert abs(mode.f(t, q)).max() < LIMIT
-        assert abs(mode.f_a(t, q) @ v).max() < LIMIT * abs(v).max()
-    assert abs(mode.reactions(*rows[-1])["blade.force"]) > 10.0, "nothing is guided"
 
 
 @pytest.mark.parametrize(

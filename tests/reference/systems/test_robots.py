@@ -36,21 +36,6 @@ def test_angular_velocities_are_those_of_the_frames() -> None:
         assert difference(omega, posed) < LIMIT
 
 
-@pytest.mark.slow
-def test_falling_keeps_its_energy_and_its_momentum_about_the_vertical_axis() -> None:
-    """(2.24) Neither weights nor the first hinge turn the arm about the z axis of the ground."""
-    mode = robot("five_axis_robot")
-    energies, turning = [], []
-    for row in follow(Only(mode), np.linspace(0.0, 0.6, 4)).y:
-        q, v = mode.parted(row)
-        energies.append(mode.T(0.0, q, v) + mode.U(0.0, q))
-        rows = free_cut.momenta(mode, 0.0, q, v)
-        centres = np.array([pose[:3] for pose in mode.poses(0.0, q, v).values()])
-        turning.append((np.cross(centres, rows[:, :3]) + rows[:, 3:])[:, 2].sum())
-    assert np.ptp(energies) < LIMIT * max(map(abs, energies))
-    assert np.ptp(turning) < LIMIT * max(map(abs, turning))
-
-
 def test_driven_motion_is_the_closed_form() -> None:
     mode, times = robot("driven_robot"), np.linspace(0.0, 2.0, 11)
     known = np.array([np.concatenate(mode.closed_form(t) or ()) for t in times.tolist()])
@@ -84,10 +69,3 @@ ALONE = {f"S{k}": 0.0 for k in (1, 3, 4, 5)}
 def test_one_joint_alone_moves_a_pendulum() -> None:
     assert shoulder(robot("driven_robot", **ALONE)) < LIMIT
     assert shoulder(robot("driven_robot")) > 1e-3, "it sees no other joint move"
-
-
-def test_the_ground_carries_the_weight_of_an_armat_rest() -> None:
-    mode = robot("driven_robot", **{f"S{k}": 0.0 for k in range(1, 6)})
-    held = mode.reactions(0.0, *mode.start())
-    assert math.isclose(held["q1.fz"], (8.0 + 5.0 + 3.0 + 1.2 + 0.7) * G, rel_tol=1e-14)
-    assert abs(held["q1.torque"]) < 1e-14

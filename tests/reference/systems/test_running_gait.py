@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from given.examples import example
 
-from textmech.reference.motion.cycle import Cycle, cycle
 from textmech.reference.motion.follow import Change, follow
 from textmech.reference.system import Array
 from textmech.reference.systems.walkers.running_gait import RunningGait, _Runner
@@ -51,36 +50,6 @@ def test_a_leg_that_is_reset_in_flight_sets_its_feet_there() -> None:
     assert feet == pytest.approx(run.feet, abs=1e-12)
 
 
-def on_fixed_feet() -> Cycle:
-    """Of the map from one touch-down to the next, of φ and the direction of ṙ, by energy."""
-    run = gait()
-    energy = (run.vx0**2 + run.vy0**2) / 2 + G * math.sin(run.alpha)
-
-    def step(x: Array) -> Array:
-        alpha, way = map(float, x)
-        speed = math.sqrt(2 * (energy - G * math.sin(alpha)))
-        begun = gait(alpha=alpha, vx0=speed * math.cos(way), vy0=speed * math.sin(way))
-        down = events(begun, "touches down", np.linspace(0.0, 0.4, 3))[0]
-        q, v = np.split(down.before, 2)
-        _, _, _, vx, vy, _ = begun.modes["stance 2"].poses(0.0, q, v)["jumper"]
-        return np.array([q[1], math.atan2(vy, vx)])
-
-    return cycle(step, np.array([run.alpha, math.atan2(run.vy0, run.vx0)]))
-
-
-@pytest.mark.slow
-def test_on_feet_that_stay_the_gait_is_not_stable() -> None:
-    """With the leg reset at α it is (test_legs). Nothing is lost, and what runs back is a run too:
-
-    so the multipliers are each other's inverses.
-    """
-    run, found = gait(), on_fixed_feet()
-    assert found.error < 1e-14
-    assert found.state == pytest.approx([run.alpha, math.atan2(run.vy0, run.vx0)], abs=1e-13)
-    assert found.multipliers == pytest.approx([-2.1224446, -0.4711548], abs=1e-6)
-    assert np.prod(found.multipliers).real == pytest.approx(1.0, abs=1e-8)
-
-
 def ends(system: RunningGait) -> Array:
     run = follow(system, TIMES)
     q, v = np.split(run.y[-1], 2)
@@ -114,8 +83,3 @@ def test_two_legs_at_once_are_no_run() -> None:
     system = gait(x2=-0.2)
     assert "to foot 2 is -" in str(system.possible("stance 1", 0.0, *system.start()[1:]))
     assert gait().possible("stance 1", 0.0, *gait().start()[1:]) is None
-
-
-def test_a_start_that_leaves_the_leg_is_refused() -> None:
-    with pytest.raises(ValueError, match="shortened at touch-down"):
-        gait(vx0=-9.0)

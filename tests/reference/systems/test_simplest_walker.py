@@ -10,7 +10,6 @@ from given.walkers import SLOPE, returned
 from scipy.integrate import solve_ivp
 
 from textmech.reference.motion.cycle import Cycle, NoCycle, cycle, derivative
-from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array
 from textmech.reference.systems.walkers.simplest_walker import G, SimplestWalker
 
@@ -37,19 +36,6 @@ def test_limit_cycle_is_the_published_one():
     after, lasts = returned(walker(found().state), (0, 2))
     assert after == pytest.approx(found().state, abs=1e-14)
     assert lasts == pytest.approx(LASTS, abs=1e-3)
-
-
-@pytest.mark.slow
-def test_it_is_stable_and_a_disturbance_dies_away_by_its_multipliers():
-    """Three states d of a small one: d₂ = (μ₁ + μ₂) d₁ − μ₁ μ₂ d₀."""
-    assert found().stable
-    one, two = found().multipliers
-    states = [found().state + np.array([1e-6, -1e-6])]
-    for _ in range(2):
-        states.append(returned(walker(states[-1]), (0, 2))[0])
-    first, second, third = (state - found().state for state in states)
-    follows = (one + two).real * second - (one * two).real * first
-    assert third == pytest.approx(follows, abs=1e-3 * np.abs(third).max())
 
 
 def slopes(t: float, y: Array) -> Array:
@@ -101,16 +87,6 @@ def test_multipliers_are_those_of_the_variational_equations():
 
 
 @pytest.mark.slow
-def test_length_only_sets_the_time():
-    """θ̇ goes with √(g/l)."""
-    l = 0.4
-    scaled = np.array([found().state[0], found().state[1] * math.sqrt(G / l)])
-    after, lasts = returned(walker(scaled, l=l), (0, 2))
-    assert after == pytest.approx(scaled, rel=1e-12)
-    assert lasts == pytest.approx(3.88246375 * math.sqrt(l / G), rel=1e-8)
-
-
-@pytest.mark.slow
 @pytest.mark.mutant(
     "simplest walker: no slope",
     "simplest walker: a strike that keeps all speed",
@@ -137,13 +113,6 @@ def test_a_mistake_is_seen_in_the_cycle(wrong: str, monkeypatch: pytest.MonkeyPa
         assert returned(off, (0, 2))[0] == pytest.approx(x, abs=1e-4)
 
 
-@pytest.mark.slow
-def test_a_steeper_slope_takes_longer_steps():
-    """θ* ∝ γ^(1/3) for small slopes."""
-    small = [found(slope).state[0] / slope ** (1 / 3) for slope in (0.004, 0.009)]
-    assert small[1] == pytest.approx(small[0], rel=0.02)
-
-
 def test_a_map_without_a_fixed_point_is_said():
     with pytest.raises(NoCycle, match="no cycle near"):
         cycle(lambda x: np.array([math.cos(x[0]) + x[0] + 2.0]), np.array([0.3]))
@@ -153,10 +122,3 @@ def test_derivative_is_of_eighth_order():
     slope = derivative(lambda x: np.exp(x), np.array([1.0]), part=0.1)
     assert slope[0, 0] == pytest.approx(math.e, rel=1e-10)
     assert slope[0, 0] != pytest.approx(math.e, rel=1e-14)
-
-
-def test_it_walks_on():
-    steps = follow(walker(found().state), np.linspace(0.0, 20.0, 3)).events
-    assert [step.name for step in steps] == ["strikes"] * 5
-    gaps = np.diff([step.time for step in steps])
-    assert gaps == pytest.approx(gaps[0], abs=1e-10)

@@ -36,30 +36,12 @@ def test_strikes_are_where_they_are_known_to_be(how: str) -> None:
         assert event.after[1] == pytest.approx(-changed.get("e", 0.0) * event.before[1], abs=1e-15)
 
 
-def test_bounces_that_pile_up_end_at_rest() -> None:
-    """On the slanted stop it is thrown back ever less, and in the end the stop carries it."""
-    case = scenes.SHIPPED["stopped_pendulum.thrown_back"]
-    system = example("stopped_pendulum", e=0.3)
-    found = follow(system, np.linspace(0.0, 2.0, 41))
-    assert found.modes[-1] == "rests"
-    assert case.scene.forces["stop"].numbers() == {"low": -math.pi / 3}
-
-
 @pytest.mark.slow
 def test_what_rests_on_a_stop_presses_with_the_moment_of_its_weight() -> None:
     case = scenes.SHIPPED["stopped_pendulum.rests"]
     torque = observe(case.scene, scenes.solved(case.name).trajectory, "stop.torque")
     assert torque[0] == 0.0
     assert torque[-1] == pytest.approx(1.2 * 9.80665 * 0.4 * math.cos(math.pi / 3), rel=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("changed", "what"),
-    [({"e": 1.2}, "restitution"), ({"low": 0.5}, "bar start above it")],
-)
-def test_what_it_is_not(changed: dict[str, float], what: str) -> None:
-    with pytest.raises(ValueError, match=what):
-        example("stopped_pendulum", **changed)
 
 
 def broken() -> set[str]:

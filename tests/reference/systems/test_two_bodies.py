@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.examples import THROWN, duration, example
+from given.examples import THROWN, example
 from given.mutants import mutant, with_mode
 
 from textmech.reference.motion.follow import follow
@@ -46,11 +46,6 @@ def test_a_rolling_disk_turns_a_light_drum_as_its_inertia_has_it() -> None:
     moves = (1 + 1 / (2 + 2 / 3.0)) * (0.6 * rate) ** 2 / 2
     assert event.name == "slips"
     assert moves == pytest.approx(G * 0.6 * (TOP - math.sin(theta)), rel=1e-10)
-
-
-def test_equal_disks_hand_on_all_they_have() -> None:
-    system = example("cradle", m2=1.0, m3=1.0, e=1.0)
-    assert follow(system, np.array([0.0, 1.0])).y[-1, 3:] == pytest.approx([0.0, 0.0, 1.0])
 
 
 def test_momentum_stays_and_each_blow_takes_its_share_of_energy() -> None:
@@ -162,45 +157,3 @@ def test_a_lost_term_of_the_disk_is_seen(mode: str, lost: str) -> None:
     wrong = mutant(sound.modes[mode], **{lost: method})
     assert apart(sound, "disk_on_disk.rolls") < 1e-12
     assert apart(with_mode(sound, mode, wrong), "disk_on_disk.rolls") > 1e-3
-
-
-@pytest.mark.parametrize(
-    ("name", "changed", "message"),
-    [
-        ("cradle", {"x2": 0.1}, "must start apart"),
-        ("cradle", {"e": 0.05}, "without end"),
-        ("cradle", {"e": 1.1}, "without end"),
-        ("stacked_blocks", {"v0": 1.0}, "pulled with b > 0 or thrown"),
-        ("stacked_blocks", {"b": 0.0}, "pulled with b > 0 or thrown"),
-        ("disk_on_disk", {"L": 0.7}, "starts on the drum"),
-        ("disk_on_disk", {"theta0": 2.0}, "rolls down on the right"),
-    ],
-)
-def test_what_it_is_not_for_is_said(name: str, changed: dict[str, float], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        example(name, **changed)
-
-
-@pytest.mark.parametrize(
-    ("name", "mode", "q", "v", "message"),
-    [
-        ("cradle", "free", [0.0, 0.05, 0.63], [0.0] * 3, "overlap"),
-        ("stacked_blocks", "together", [0.0, 0.4], [0.0] * 2, "past the end"),
-        ("stacked_blocks", "together", [0.0, 0.1], [0.0] * 2, "sticking takes"),
-        ("disk_on_disk", "rolls", [0.6, 0.1, 0, 0], [0.0] * 4, "rolling takes"),
-        ("disk_on_disk", "rolls", [0.6, 1.0, 0, 0], [0, -9.0, 0, 0], "would have to pull"),
-        ("disk_on_disk", "slips", [0.6, 1.0, 0, 0], [0, 1.0, 0, 0], "slips uphill"),
-        ("disk_on_disk", "flies", [0.5, 1.0, 0, 0], [0.0] * 4, "in the drum"),
-    ],
-)
-def test_where_it_ends_is_said(
-    name: str, mode: str, q: list[float], v: list[float], message: str
-) -> None:
-    said = example(name).possible(mode, duration(name), np.array(q), np.array(v))
-    assert message in str(said)
-
-
-def test_blocks_that_would_tip_are_said() -> None:
-    high = example("stacked_blocks", h2=1.0, mu2=0.9)
-    said = high.possible("left behind", 1.0, np.array([0.0, 0.1]), np.array([1.0, 0.5]))
-    assert "a block tips" in str(said)
