@@ -2,18 +2,23 @@
 
 import importlib
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 from unittest import mock
 
 import numpy as np
 import pytest
+from given import gimbals, robots, spatial, wheels
 from given import spatial_laws as laws
+from given.laws import difference
 from given.mutants import mutant
 from given.spatial import SPATIAL, VARIANTS, closed, only, states, variant
 
+from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reference.motion.follow import follow
-from textmech.reference.system import Mode
+from textmech.reference.system import Array, Mode
+
+# Every hand-written system in space obeys every law, and planted mistakes are seen by name.
 
 ASKED: dict[str, dict[str, laws.Law]] = {
     name: {"lagrangian": laws.lagrangian(name), **{law.__name__: law for law in laws.COMMON}}
@@ -173,3 +178,52 @@ def test_attitude_from_ground_to_body_is_seen(name: str):
         return {body: (*pose[:4], -pose[4], -pose[5], -pose[6], *pose[7:])}
 
     seen(name, mutant(sound, poses=poses), "rates_of_poses", "free_bodies")
+
+
+# The hand-written systems in space against what needs no multipliers, at a hundred states.
+
+FORMS = {"voronets": voronets, "chaplygin": chaplygin, "appell": appell}
+STATES = 100
+LIMIT = 1e-12  # of the largest acceleration, or of 1 m/s² or rad/s²
+# Which apply. What is driven throughout leaves nothing free; an Euler angle or a joint's angle
+# depends on no other; a quaternion does, and appears everywhere.
+APPLY: dict[str, set[str]] = {
+    "heavy_top": {"appell"},
+    "tilting_disk": set(FORMS),
+    "tilting_ring": set(FORMS),
+    "sprung_gimbal": {"appell"},
+    "torque_free": {"voronets", "appell"},
+    "upright_wheel": set(FORMS),
+    "driven_wheel": set(),
+    "driven_robot": set(),
+    "five_axis_robot": {"appell"},
+    "robot_knife": {"voronets", "appell"},
+}
+
+
+def drawn(name: str) -> tuple[Mode, Iterator[tuple[float, Array, Array]]]:
+    """The system and its random states."""
+    if name in spatial.SPATIAL:
+        return spatial.only(name), spatial.states(name, STATES)
+    if name in gimbals.PARAMETERS:
+        return gimbals.gimbal(), gimbals.states(STATES)
+    room: Any = wheels if name in wheels.PARAMETERS else robots
+    mode = room.wheel(name) if room is wheels else room.robot(name)
+    return mode, room.states(mode, STATES)
+
+
+def test_every_system_in_space_is_asked() -> None:
+    rooms = (spatial.SPATIAL, wheels.PARAMETERS, robots.PARAMETERS, gimbals.PARAMETERS)
+    assert set(APPLY) == set().union(*rooms)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", APPLY)
+def test_formalisms_agree(name: str) -> None:
+    mode, states = drawn(name)
+    for at in states:
+        for key, form in FORMS.items():
+            found = form.accelerations(mode, *at)
+            assert (found is not None) == (key in APPLY[name]), key
+            if found is not None:
+                assert difference(mode.accelerations(*at), found, 1.0) < LIMIT, key

@@ -1,17 +1,53 @@
-"""Which equations count as used: those whose function runs."""
+"""What is kept complete: the equations, which of them run, names, and what all answers share."""
 
 import ast
+import re
 from collections.abc import Callable, Container
-from functools import cached_property
+from functools import cache, cached_property
 from importlib import import_module
 from pathlib import Path
 
 import pytest
 from given import scenes
+from given.tree import ROOT
 
+from textmech.reference import certificate
 from textmech.reference.coverage import Numbered, equations, noting
 from textmech.reference.laws import momentum
 from textmech.reference.laws.force import spring, weight
+
+# Each equation of the chapter's mechanics has a function that states it, or a test of its own.
+
+NUMBERS = range(1, 81)  # kinematics, the synthetic method, and the analytical one
+PLACES = [ROOT / "reference", ROOT / "tests" / "reference"]
+
+
+def stated(file: Path) -> set[str]:
+    """The equations that open the docstring of a function or test in it."""
+    tree = ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+    functions = [node for node in tree if isinstance(node, ast.FunctionDef)]
+    return {number for node in functions for number in equations(ast.get_docstring(node))}
+
+
+@cache
+def found() -> set[str]:
+    """All of them."""
+    return {number for place in PLACES for file in place.rglob("*.py") for number in stated(file)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", NUMBERS)
+def test_equation_is_stated(number: int) -> None:
+    assert f"2.{number}" in found()
+
+
+def test_an_equation_that_nobody_states_is_seen(tmp_path: Path) -> None:
+    file = tmp_path / "some.py"
+    file.write_text('def f():\n    """(2.7) a, as (2.99) has it."""\n', encoding="utf-8")
+    assert stated(file) == {"2.7"}
+
+
+# Which equations count as used: those whose function runs.
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 
@@ -184,3 +220,86 @@ def test_claimed_equations_are_executed() -> None:
     for name, case in scenes.EVERY.items():
         left = sorted(set(case.origin.equations) - scenes.solved(name).equations)
         assert not left, f"{name} claims {left}, which nothing in its solution executes"
+
+
+# The names that NOTATION.md says the code has are names in the code.
+
+TABLES = (ROOT / "reference" / "NOTATION.md").read_text(encoding="utf-8")
+WORD = r"[A-Za-z_]\w*"
+CODE = {
+    word
+    for file in (ROOT / "reference").rglob("*.py")
+    for word in re.findall(WORD, file.read_text(encoding="utf-8"))
+}
+
+
+def named(row: str) -> list[str]:
+    """The words in backticks of a row's second column."""
+    column = row.split("|")[2]
+    return [word for code in re.findall(r"`([^`]*)`", column) for word in re.findall(WORD, code)]
+
+
+ROWS = [row for row in TABLES.splitlines() if row.startswith("|") and named(row)]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.split("|")[1].strip())
+def test_names_of_a_row_are_in_the_code(row: str) -> None:
+    assert set(named(row)) <= CODE
+
+
+def test_a_name_that_is_gone_is_seen() -> None:
+    assert not set(named("| S | `appell.lost_energy` | | J/s² | 2.77 |")) <= CODE
+    assert len(ROWS) > 60
+
+
+# reference/SHARED.md: what all answers share, each with the rows and the tests that see it.
+
+LIST = ROOT / "reference" / "SHARED.md"
+CERTIFICATE = Path(certificate.__file__ or "").parent
+ISLANDS = CERTIFICATE.parent / "islands.py"
+
+
+def entries() -> list[list[str]]:
+    """The cells of each line of the table."""
+    lines = LIST.read_text(encoding="utf-8").splitlines()
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if "|" in line]
+    return cells[2:]
+
+
+ENTRIES = {cells[0]: cells for cells in entries()}
+
+
+def quoted(cell: str) -> list[str]:
+    """What stands in back quotes."""
+    return re.findall(r"`([^`]+)`", cell)
+
+
+def functions(file: str) -> set[str]:
+    """The names of a test file's functions."""
+    tree = ast.parse((ROOT / "tests" / file).read_text(encoding="utf-8"))
+    return {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_each_entry_has_its_code_its_rows_and_a_test(entry: str) -> None:
+    _, code, rows, tests = ENTRIES[entry]
+    assert quoted(code)
+    assert [name for name in quoted(code) if not (ROOT / name).exists()] == []
+    words = "\n".join(
+        file.read_text(encoding="utf-8") for file in (ISLANDS, *CERTIFICATE.glob("*.py"))
+    )
+    assert [row for row in quoted(rows) if f'"{row}"' not in words] == []
+    assert quoted(rows) or rows == "none"
+    assert quoted(tests)
+    for test in quoted(tests):
+        file, _, name = test.partition("::")
+        assert name in functions(file), test
+
+
+def test_every_row_that_reads_the_file_is_listed() -> None:
+    """And nothing is taken for one that the certificate does not have."""
+    rows = {row for cells in ENTRIES.values() for row in quoted(cells[2])}
+    files = (ISLANDS, CERTIFICATE / "file_checks.py", CERTIFICATE / "one_sided_checks.py")
+    words = "".join(file.read_text(encoding="utf-8") for file in files)
+    assert rows == set(re.findall(r'Check\("([^"]+)"', words))
