@@ -269,7 +269,7 @@ SIZES = st.floats(-29, 29).map(lambda e: f"{10.0**e:.3e}") | st.sampled_from(["0
 
 
 @st.composite
-def scenes_damage(draw: st.DrawFn) -> str:
+def damaged_pendula(draw: st.DrawFn) -> str:
     """One or two numbers of any size, the others as they were."""
     sound = {"c": "40", "l": "0.2", "d": "0.1", "a": "1", "b": "0", "w": "5"}
     other = {"length": "0.5", "angle": "0.3", "duration": "0.2", "step": "1.0e-3"}
@@ -286,7 +286,7 @@ def test_any_numbers_give_a_motion_or_a_mistake_with_a_place(
     file, seen = tmp_path / "case.yaml", Counter[str]()
 
     @examples(60)
-    @given(scenes_damage())
+    @given(damaged_pendula())
     def each(text: str) -> None:
         file.write_text(text, encoding="utf-8")
         try:

@@ -233,11 +233,11 @@ def several(case: Case) -> bool:
     return any(len(getattr(case.scene, part)) > 1 for part in PARTS)
 
 
-ORDERS_NAMES = [name for name in scenes.ONE_OF_EACH_FILE if several(scenes.SHIPPED[name])]
+WITH_SEVERAL = [name for name in scenes.ONE_OF_EACH_FILE if several(scenes.SHIPPED[name])]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ORDERS_NAMES)
+@pytest.mark.parametrize("name", WITH_SEVERAL)
 def test_the_other_way_around_it_moves_the_same(name: str) -> None:
     case, known = scenes.SHIPPED[name], scenes.solved(name)
     turned = other(case)

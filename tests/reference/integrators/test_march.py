@@ -15,7 +15,7 @@ from given.problems import (
     pendulum,
 )
 
-from textmech.reference.integrators import march as march_noise
+from textmech.reference.integrators import march as marching
 from textmech.reference.integrators.explicit import (
     DormandPrince,
     dormand_prince,
@@ -24,7 +24,6 @@ from textmech.reference.integrators.explicit import (
 from textmech.reference.integrators.implicit import ByEigenvalues, Radau, Whole, radau
 from textmech.reference.integrators.march import IntegrationError, Vector, march
 from textmech.reference.integrators.radau import radau_table
-from textmech.reference.integrators.slope import Vector as Vector_noise
 from textmech.reference.integrators.slope import leaps, noise
 
 # Samples, rest, and what ends a march: it is told where.
@@ -205,7 +204,7 @@ TIGHT = 1e-15  # what a motion is followed with
 PEAK = np.array([1.0, 1.0])
 
 
-def breaks_loose(t: float, y: Vector_noise) -> Vector_noise:
+def breaks_loose(t: float, y: Vector) -> Vector:
     """A force t against a friction of 2.9: from rest, v = τ²/2 and x = τ³/6."""
     return np.array([y[1], t - ONSET])
 
@@ -227,7 +226,7 @@ def test_in_any_unit(method, unit: float):
     np.testing.assert_allclose(found.y, unit * one.y, rtol=1e-13)
 
 
-def drawn(t: float, y: Vector_noise) -> Vector_noise:
+def drawn(t: float, y: Vector) -> Vector:
     """A cart of 1 kg a metre from the wall that its spring hangs on, drawn ever more."""
     x, v = y
     return np.array([v, 2.0 * t - 40.0 * ((1.0 + x) - 1.0)])
@@ -252,7 +251,7 @@ DRAWN = [(1.0, 2.0, 50.0, 1.0, 0.08), (1.59, 4.77, 54.1, 0.24, 0.08), (0.4, 0.9,
 def test_so_it_does_whatever_its_first_step_takes(
     method, away: float, mass: float, stiffness: float, rate: float, apart: float
 ) -> None:
-    def slope(t: float, y: Vector_noise) -> Vector_noise:
+    def slope(t: float, y: Vector) -> Vector:
         x, v = y
         return np.array([v, (rate * t - stiffness * ((away + x) - away)) / mass])
 
@@ -277,7 +276,7 @@ def test_a_weak_ramp_breaks_it_loose(method, rate: float, begins: float):
     times = begins + np.linspace(0.0, 1.0, 26)
     before = BOUND - rate * begins
 
-    def f(t: float, y: Vector_noise) -> Vector_noise:
+    def f(t: float, y: Vector) -> Vector:
         return np.array([y[1], (before + rate * t) - BOUND])
 
     found = method(f, times, [0.0, 0.0], tolerance=TIGHT)
@@ -291,8 +290,8 @@ def test_a_weak_ramp_breaks_it_loose(method, rate: float, begins: float):
 @pytest.mark.mutant("of a state that is zero the leaps by which its slope feels it are not heard")
 def test_without_its_leaps_it_creeps(monkeypatch: pytest.MonkeyPatch):
     """In 46,000 steps to 0.5 s, or to where they shrink to nothing."""
-    monkeypatch.setattr(march_noise, "leaps", lambda f, t, y, h: np.zeros_like(y))
-    with pytest.raises(march_noise.IntegrationError, match="more than 2000 steps"):
+    monkeypatch.setattr(marching, "leaps", lambda f, t, y, h: np.zeros_like(y))
+    with pytest.raises(marching.IntegrationError, match="more than 2000 steps"):
         dormand_prince(drawn, [0.0, 0.5], [0.0, 0.0], tolerance=TIGHT, most=2000)
 
 
@@ -310,7 +309,7 @@ def test_leaps_are_those_of_the_sum_and_not_of_what_is_felt_at_once():
 def test_noise_is_measured(size: float):
     random = np.random.default_rng(seed=1)
 
-    def f(t: float, y: Vector_noise) -> Vector_noise:
+    def f(t: float, y: Vector) -> Vector:
         return np.array([np.sin(t) + size * random.standard_normal(), np.cos(t)])
 
     found = noise(f, 0.7, np.array([0.0, 1.0]), 0.5, PEAK)
@@ -334,6 +333,6 @@ def test_noise_as_loud_as_the_slope_is_no_rounding():
 @pytest.mark.mutant("error of a step relative to a state that is exactly zero")
 def test_without_it_the_block_is_stuck(monkeypatch: pytest.MonkeyPatch):
     """The mistake this is for: an error relative to a state that is exactly zero."""
-    monkeypatch.setattr(march_noise, "noise", lambda *_: None)
-    with pytest.raises(march_noise.IntegrationError, match="underflows"):
+    monkeypatch.setattr(marching, "noise", lambda *_: None)
+    with pytest.raises(marching.IntegrationError, match="underflows"):
         dormand_prince(breaks_loose, TIMES, [0.0, 0.0])

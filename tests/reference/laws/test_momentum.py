@@ -302,7 +302,7 @@ def test_the_point_must_move_as_its_acceleration_says(monkeypatch: pytest.Monkey
     assert momenta.about_a_moving_point(s) <= momenta.LIMIT
 
 
-def moment_change_along(M_A: Array, m: float, a_A: Array, a: Array) -> Array:
+def factors_exchanged(M_A: Array, m: float, a_A: Array, a: Array) -> Array:
     """(2.28) with the factors of its last term exchanged."""
     return M_A + m * np.cross(a, a_A)
 
@@ -321,7 +321,7 @@ def steiner_only(m: float, J: Array, r: Array, v: Array, omega: Array) -> Array:
 @pytest.mark.parametrize(
     ("name", "wrong", "law"),
     [
-        ("moment_change", moment_change_along, momenta.about_a_moving_point),
+        ("moment_change", factors_exchanged, momenta.about_a_moving_point),
         ("angular_momentum", spin_only, momenta.about_the_origin),
         ("angular_momentum", steiner_only, momenta.about_the_origin),
         ("angular_momentum", steiner_only, momenta.about_the_centre),

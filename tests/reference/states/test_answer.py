@@ -314,7 +314,7 @@ def test_mistakes(mistake: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 CASE = scenes.CLAIMS["sliding_points"]
 
 
-def apart_points() -> float:
+def writings_apart() -> float:
     """By hand against −∂D/∂ṙ, relative."""
     _, checks = answered(CASE)
     return max(check.difference for check in checks if check.name == "generated states")
@@ -322,7 +322,7 @@ def apart_points() -> float:
 
 @pytest.mark.slow
 def test_by_hand_from_its_dissipation_and_as_observed() -> None:
-    assert apart_points() < POINTS_LAW
+    assert writings_apart() < POINTS_LAW
     found, _ = answered(CASE)
     bare = Trajectory(found.times, found.states, {})
     for name in CASE.allow:
@@ -389,7 +389,7 @@ def test_a_planted_mistake_is_seen(planted: str, monkeypatch: pytest.MonkeyPatch
     module, name, change = PLANTED[planted]
     monkeypatch.setattr(module, name, change(getattr(module, name)))
     with pytest.raises(AssertionError):
-        assert apart_points() < 1e-3
+        assert writings_apart() < 1e-3
 
 
 @pytest.mark.slow

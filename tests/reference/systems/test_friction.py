@@ -10,12 +10,9 @@ from given import laws
 from given.events import LOCATED, event_errors
 from given.examples import duration, example, only
 from given.mutants import mutant, with_mode
-from scipy.integrate import solve_ivp
 
-from textmech.reference.integrators.implicit import radau
 from textmech.reference.laws.friction import Dry, smooth
 from textmech.reference.motion.follow import follow
-from textmech.reference.motion.stuck import slope
 from textmech.reference.motion.zeno import ZenoError
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.friction import stick_slip
@@ -143,23 +140,6 @@ def test_friction_of_another_force_is_seen():
     sound: Any = only("smooth_dynamometer")
     told = lambda self, t, q, v: sound.reactions(t, -q, v)  # noqa: E731
     assert missed(mutant(sound, reactions=told)) > 1.0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["smooth_dynamometer", "smooth_growing_force"])
-def test_smooth_law_by_stiff_integrators(name: str):
-    system, times = example(name), np.linspace(0.0, 6.6, 34)  # as far as a slip after a stick
-    assert system.modes["moving"].stiff
-    found = follow(system, times)
-    assert found.events == ()
-    f = slope(system.modes["moving"])
-    seven = radau(f, times, np.zeros(2), stages=7, tolerance=1e-15).y
-    other = solve_ivp(
-        f, (0.0, 6.6), np.zeros(2), method="Radau", t_eval=times, rtol=1e-13, atol=1e-16,
-        max_step=0.05,
-    )  # fmt: skip
-    assert np.abs(found.y - seven).max() <= 1e-9
-    assert np.abs(found.y - other.y.T).max() <= 1e-9
 
 
 @pytest.mark.slow

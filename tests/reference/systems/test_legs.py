@@ -3,8 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,10 +11,9 @@ from given import scenes
 from given.examples import example
 from given.mutants import mutant, with_mode
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from textmech.cases.scene.quantity import at_event
-from textmech.reference.motion.follow import Change, Followed, either, follow
+from textmech.reference.motion.follow import Change, Followed, follow
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.walkers.running_gait import RunningGait, _Runner
 from textmech.reference.systems.walkers.trunk_on_legs import TrunkOnLegs
@@ -130,57 +127,9 @@ def test_a_trunk_that_never_says_so_is_seen(monkeypatch: pytest.MonkeyPatch) -> 
         test_a_leg_of_the_trunk_that_pulls_or_passes_through_is_said()
 
 
-def apex_to_apex(height: float, alpha: float, energy: float) -> float:
-    """The next apex [m] of the running model: the leg is set at alpha in each flight.
-
-    energy: of 80 kg on 20 kN/m, which fixes the speed at the apex; NaN where it stumbles.
-    """
-    leg = {"m": 80.0, "c": 20000.0, "l0": 1.0, "alpha": alpha}
-    down = height - math.sin(alpha)
-    speed = math.sqrt(2 * (energy / 80.0 - G * height))
-    if down < 0.0:
-        return math.nan
-    system = example("spring_mass_jump", **leg, vx0=speed, vy0=-math.sqrt(2 * G * down))
-    found = follow(system, np.linspace(0.0, 0.6, 3), by=partial(either, tolerance=1e-12))
-    if not found.events:
-        return math.nan
-    _, y, vx, vy = poses(system, "stance", found.events[0].before)
-    return y + vy * vy / (2 * G) if vx > 0.0 and vy > 0.0 else math.nan
-
-
 ALPHA, SPEED = math.radians(112.0), 5.0  # 68° of attack at about 5 m/s: as published, it is stable
 RUNS = 0.94030026326  # m: the apex of the gait that repeats itself
 ENERGY = 80.0 * (SPEED**2 / 2 + G)
-
-
-@pytest.mark.slow
-def test_the_running_gait_repeats_itself_and_is_stable() -> None:
-    """Seyfarth et al. 2002: the return map has two fixed points, of which the lower attracts.
-
-    What is just below the upper one falls to the lower, and what is just above it stumbles.
-    """
-
-    def excess(height: float) -> float:
-        return apex_to_apex(height, ALPHA, ENERGY) - height
-
-    heights = np.linspace(math.sin(ALPHA) + 1e-3, 1.4, 12)
-    signs = [(h, excess(h)) for h in heights.tolist()]
-    signs = [(h, e) for h, e in signs if not math.isnan(e)]
-    fixed = [
-        brentq(excess, a, b, xtol=1e-13)
-        for (a, left), (b, right) in pairwise(signs)
-        if left * right < 0
-    ]
-    multipliers = [(excess(h + 1e-5) - excess(h - 1e-5)) / 2e-5 + 1.0 for h in fixed]
-    assert fixed == pytest.approx([RUNS, 1.3377346605], abs=1e-9)
-    assert multipliers == pytest.approx([-0.159873, 1.686630], abs=1e-5)
-    for begins, ends in ((fixed[0] + 0.02, fixed[0]), (fixed[1] - 0.02, fixed[0])):
-        apex = begins
-        for _ in range(14):
-            apex = apex_to_apex(apex, ALPHA, ENERGY)
-        assert apex == pytest.approx(ends, abs=1e-6)
-    off = [abs(apex_to_apex(RUNS + d, ALPHA, ENERGY) - RUNS) / d for d in (1e-4, 1e-5)]
-    assert off == pytest.approx([0.159873] * 2, rel=2e-2)  # as steps tell it, not a difference
 
 
 @pytest.mark.slow
@@ -208,7 +157,7 @@ def test_the_shipped_step_is_that_of_the_periodic_gait() -> None:
 
 # A run of four steps: its feet are where a leg that is reset in flight sets them, and its gait.
 
-RUN_TIMES = np.linspace(0.0, 1.0, 11)
+SECOND = np.linspace(0.0, 1.0, 11)
 
 
 def gait(**changes: float) -> RunningGait:
@@ -216,7 +165,7 @@ def gait(**changes: float) -> RunningGait:
     return found
 
 
-def events(system: RunningGait, name: str, times: Array = RUN_TIMES) -> list[Change]:
+def events(system: RunningGait, name: str, times: Array = SECOND) -> list[Change]:
     return [event for event in follow(system, times).events if event.name == name]
 
 
@@ -247,7 +196,7 @@ def test_a_leg_that_is_reset_in_flight_sets_its_feet_there() -> None:
 
 
 def ends(system: RunningGait) -> Array:
-    run = follow(system, RUN_TIMES)
+    run = follow(system, SECOND)
     q, v = np.split(run.y[-1], 2)
     return np.array(system.modes[run.modes[-1]].poses(0.0, q, v)["jumper"])
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from given import free_cut, robot_laws
 from given.laws import LIMIT, difference
-from given.mutants import mutant
+from given.mutants import in_ground_axes, mutant, sound, too_fast, transposed
 from given.robots import PARAMETERS, robot, states
 
 from textmech.reference.formalisms import lagrange
@@ -144,51 +144,26 @@ def test_a_mistake_in_the_arm_is_seen_by_lagrange(
     assert robot_laws.equations(robot(name)) > 1e3 * LIMIT
 
 
-def _poses(self: Any, *given: Any) -> Any:
-    return type(self).__mro__[1].poses(self, *given)
-
-
-def transposed(self: Any, *given: Any) -> Any:
-    """E as ground axes in body axes: the conjugate quaternions."""
-    return {
-        name: (*pose[:4], *(-x for x in pose[4:7]), *pose[7:])
-        for name, pose in _poses(self, *given).items()
-    }
-
-
-def in_ground_axes(self: Any, t: Any, q: Any, v: Any) -> Any:
-    """ω of every body in ground axes."""
-    where, poses = arm.places(q), _poses(self, t, q, v)
-    moving = outward(where, v, np.zeros(5))
-    rows = zip(poses.items(), moving, strict=True)
-    return {name: (*pose[:10], *at.omega) for (name, pose), at in rows}
-
-
 def of_one_hinge(self: Any, t: Any, q: Any, v: Any) -> Any:
     """ω_{k,k−1} for ω_k."""
-    rows = zip(_poses(self, t, q, v).items(), arm.LINKS, v, strict=True)
+    rows = zip(sound(self, "poses")(t, q, v).items(), arm.LINKS, v, strict=True)
     return {name: (*pose[:10], *(x * np.eye(3)[link.axis])) for (name, pose), link, x in rows}
 
 
 def exchanged(self: Any, *given: Any) -> dict[str, float]:
     """What the second body exerts on the first."""
-    held = type(self).__mro__[1].reactions(self, *given)
+    held = sound(self, "reactions")(*given)
     return {name: -x if name.startswith("q3.") else x for name, x in held.items()}
 
 
 def of_the_next_axis(self: Any, *given: Any) -> dict[str, float]:
     """Moments about the next hinge for those about this one."""
-    held = type(self).__mro__[1].reactions(self, *given)
+    held = sound(self, "reactions")(*given)
     return held | {f"q3.m{axis}": held[f"q4.m{axis}"] for axis in "xyz"}
 
 
-def too_fast(self: Any, *given: Any) -> Any:
-    """5 % on the accelerations."""
-    return 1.05 * type(self).__mro__[1].accelerations(self, *given)
-
-
 def upward(self: Any, t: Any, q: Any) -> Any:
-    return -type(self).__mro__[1].U(self, t, q)
+    return -sound(self, "U")(t, q)
 
 
 IN_THE_MODE = {

@@ -10,12 +10,11 @@ import pytest
 from given import free_cut, scenes
 from given import spatial_laws as laws
 from given.laws import LIMIT, difference
-from given.mutants import mutant
+from given.mutants import in_ground_axes, mutant, sound, too_fast, transposed
 from given.spatial import example, only, steady, variant
 from given.spatial import states as states_tilting
 from given.wheels import CIRCLE, CLOSED, FROM_ABOVE, PARAMETERS, WEAVE, WHEEL, states, wheel
 from mpmath import cos, exp, mp, mpf, quad
-from scipy.integrate import solve_ivp
 from scipy.special import j0
 
 from textmech.reference.formalisms import (
@@ -27,9 +26,9 @@ from textmech.reference.formalisms import (
     voronets,
 )
 from textmech.reference.motion.follow import follow
-from textmech.reference.system import MOVING, Array, Mode, Only, System
+from textmech.reference.system import MOVING, Array, Mode, Only
 from textmech.reference.systems import written
-from textmech.reference.systems.rolling import driven_edge, tilting_ring
+from textmech.reference.systems.rolling import tilting_ring
 from textmech.reference.systems.rolling.driven_edge import DrivenEdge
 from textmech.reference.systems.rolling.tilting_ring import TiltingRing
 
@@ -160,49 +159,29 @@ def test_circle_needs_its_side_force_and_no_torque_on_the_level() -> None:
         assert abs(held[name]) < 1e-15
 
 
-def transposed(self: Any, t: Any, q: Any, v: Any) -> Any:
-    """E as ground axes in body axes: the conjugate quaternion."""
-    pose = type(self).__mro__[1].poses(self, t, q, v)["wheel"]
-    return {"wheel": (*pose[:4], *(-x for x in pose[4:7]), *pose[7:])}
-
-
-def in_ground_axes(self: Any, t: Any, q: Any, v: Any) -> Any:
-    pose = type(self).__mro__[1].poses(self, t, q, v)["wheel"]
-    return {"wheel": (*pose[:10], -v[3] * np.sin(q[2]), v[3] * np.cos(q[2]), v[2])}
-
-
 def backward(self: Any, t: Any, q: Any, v: Any) -> Any:
     """φ about −y: the wheel's forward sense in the plane, clockwise."""
     turned = np.array([1.0, 1.0, 1.0, -1.0])
-    return type(self).__mro__[1].poses(self, t, q * turned, v * turned)
+    return sound(self, "poses")(t, q * turned, v * turned)
 
 
 def gyroscopic(self: Any, t: float, q: Any, v: Any) -> dict[str, float]:
     """Without J₂₂ φ̇ θ̇ in the couple."""
     lost = self.axle() * v[3] * v[2]
-    held = type(self).__mro__[1].reactions(self, t, q, v)
+    held = sound(self, "reactions")(t, q, v)
     mx, my = lost * math.cos(q[2]), lost * math.sin(q[2])
     return held | {"upright.mx": held["upright.mx"] + mx, "upright.my": held["upright.my"] + my}
 
 
 def centre(self: Any, t: Any, q: Any) -> Any:
     """Slip of the centre for the rim's point: R φ̇ left out."""
-    rows = np.array(type(self).__mro__[1].f_a(self, t, q))
+    rows = np.array(sound(self, "f_a")(t, q))
     rows[:2, 3] = 0.0
     return rows
 
 
-def too_fast(self: Any, *given: Any) -> Any:
-    """5 % on the accelerations."""
-    return 1.05 * type(self).__mro__[1].accelerations(self, *given)
-
-
-def uphill(self: Any, t: Any, q: Any) -> Any:
-    return self.m * G * q[0] * math.sin(self.alpha)
-
-
 def at_the_centre(self: Any, t: float, q: Any) -> Any:
-    floor, *others = type(self).__mro__[1].cuts(self, t, q)
+    floor, *others = sound(self, "cuts")(t, q)
     return [replace(floor, at=(*floor.at[:2], self.R)), *others]
 
 
@@ -479,36 +458,6 @@ def test_a_circle_that_rounding_takes_away_is_seen(monkeypatch: pytest.MonkeyPat
     assert lost > 3
 
 
-MOTIONS: dict[str, dict[str, float]] = {  # start, and how long it is followed
-    "disturbed circle": {"beta0": 20.0, "w1": 0.3, "w2": steady(20.0, -1.2), "w3": -1.2},
-    "slow, falls": {"beta0": 2.0, "w1": 0.0, "w2": 2.2, "w3": 0.0},
-    "near-flat spin": {"beta0": 80.0, "w1": 0.0, "w2": -0.5, "w3": 5.0},
-}
-
-
-def motion(name: str) -> System:
-    start = MOTIONS[name]
-    return example("tilting_disk", **{**start, "beta0": math.radians(start["beta0"])})
-
-
-@pytest.mark.parametrize("name", MOTIONS)
-def test_spins_follow_the_tilt(name: str):
-    """ω₂ and ω₃ are functions of β (Appell): linear equations, solved by another integrator in β.
-
-    (C + m R²) dω₂/dβ = −m R² ω₃, A dω₃/dβ = A ω₃ tan β − C ω₂; 1e-11 is what that one has.
-    """
-    system, A, C = motion(name), m * R * R / 4, m * R * R / 2
-
-    def slope(beta: float, w: Array) -> list[float]:
-        return [-m * R * R * w[1] / (C + m * R * R), w[1] * math.tan(beta) - C / A * w[0]]
-
-    y = follow(system, np.linspace(0.0, 2.0, 21)).y
-    for row in y[1:]:
-        span = (y[0, 3], row[3])
-        w = solve_ivp(slope, span, y[0, 8:], "DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
-        np.testing.assert_allclose(row[8:], w, atol=1e-11 * np.abs(y[:, 8:]).max())
-
-
 def changed(**terms: float) -> Any:
     """Accelerations with some terms of (2.33) taken `terms` times."""
 
@@ -573,20 +522,6 @@ def test_its_angle_is_exact_however_strongly_it_is_driven(A: float) -> None:
     known = system.closed_form(5.0)
     assert known is not None
     assert known[0][2] == pytest.approx(angle(system, 5.0), rel=1e-14)
-
-
-def test_its_path_is_that_of_twice_as_many_panels(monkeypatch: pytest.MonkeyPatch) -> None:
-    system = DrivenEdge(**SHIPPED)
-    known = system.closed_form(5.0)
-    monkeypatch.setattr(driven_edge, "PANELS", 2 * driven_edge.PANELS)
-    finer = system.closed_form(5.0)
-    assert known is not None
-    assert finer is not None
-    assert known[0] == pytest.approx(finer[0], abs=1e-14)
-    slopes = [(system.closed_form(t) or known)[0] for t in (1.0 - 1e-5, 1.0 + 1e-5)]
-    here = system.closed_form(1.0)
-    assert here is not None
-    assert (slopes[1] - slopes[0]) / 2e-5 == pytest.approx(here[1], abs=1e-8)
 
 
 @pytest.mark.parametrize("changed", [{"A": 40.0}, {"A": -8.0}, {"Omega": 300.0}, {"w0": 900.0}])

@@ -11,7 +11,7 @@ import pytest
 from given import gimbals, robots, spatial, wheels
 from given import spatial_laws as laws
 from given.laws import difference
-from given.mutants import mutant
+from given.mutants import in_ground_axes, mutant, transposed
 from given.spatial import SPATIAL, VARIANTS, closed, only, states, variant
 
 from textmech.reference.formalisms import appell, chaplygin, voronets
@@ -157,13 +157,7 @@ def test_parameter_off_at_the_start():
 @pytest.mark.parametrize("name", SPATIAL)
 def test_spin_in_ground_axes_is_seen(name: str):
     """ω of a pose stands in body axes."""
-    sound: Any = only(name)
-
-    def poses(self: Mode, t: Any, q: Any, v: Any) -> Any:
-        ((body, pose),) = sound.poses(t, q, v).items()
-        return {body: (*pose[:10], *(laws.matrix(pose[3:7]) @ np.array(pose[10:])))}
-
-    spoiled = mutant(sound, poses=poses)
+    spoiled = mutant(only(name), poses=in_ground_axes)
     seen(name, spoiled, "rates_of_poses", "koenig", "free_bodies")
 
 
@@ -171,13 +165,7 @@ def test_spin_in_ground_axes_is_seen(name: str):
 @pytest.mark.parametrize("name", SPATIAL)
 def test_attitude_from_ground_to_body_is_seen(name: str):
     """A transposed E: the quaternion of the turn back."""
-    sound: Any = only(name)
-
-    def poses(self: Mode, t: Any, q: Any, v: Any) -> Any:
-        ((body, pose),) = sound.poses(t, q, v).items()
-        return {body: (*pose[:4], -pose[4], -pose[5], -pose[6], *pose[7:])}
-
-    seen(name, mutant(sound, poses=poses), "rates_of_poses", "free_bodies")
+    seen(name, mutant(only(name), poses=transposed), "rates_of_poses", "free_bodies")
 
 
 # The hand-written systems in space against what needs no multipliers, at a hundred states.

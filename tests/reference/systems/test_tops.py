@@ -13,7 +13,7 @@ from given import spatial_laws as laws
 from given.gimbals import GIMBAL, VARIANTS, gimbal
 from given.gimbals import states as states_gimbal
 from given.laws import LIMIT, difference
-from given.mutants import mutant
+from given.mutants import in_ground_axes, mutant, sound
 from given.spatial import SPATIAL, closed, example, only, states
 
 from textmech.reference.formalisms import energy, lagrange
@@ -155,54 +155,6 @@ def test_a_missing_steiner_term_leaves_the_closed_form():
 # The torque-free body: what stays, where it is stable, and what a mistake in (2.33) does.
 
 FREE_A, B, FREE_C = (SPATIAL["torque_free"][key] for key in "ABC")
-STARTS = {
-    "about axis 1": (3.0, 2.0, 1.0),
-    "about axis 3": (-1.0, 2.0, 3.0),
-    "near axis 1": (5.0, 0.05, 0.02),
-    "near axis 2": (1e-6, 5.0, 3e-6),
-    "near axis 3": (0.02, 0.05, -5.0),
-}
-
-
-def test_near_the_middle_axis_the_closed_form_keeps_what_the_followed_motion_loses():
-    """Beside axis 2 a difference grows e^{λt}, λ = 2.04/s, and so do the integrator's.
-
-    Until it has turned over once, in 7 s, all is well: what grows began small. On its way to the
-    second turn the followed motion loses eleven digits. ω by the same functions to 40 digits shows
-    that the closed form is right all the time.
-    """
-    w, times = STARTS["near axis 2"], np.linspace(0.0, 20.0, 26)
-    system = example("torque_free", w1=w[0], w2=w[1], w3=w[2])
-    known = np.array([closed(system, t)[1][3:] for t in times.tolist()])
-    exact = np.array([jacobi(w, t) for t in times.tolist()])
-    assert np.abs(known - exact).max() < 1e-14
-    lost = np.abs(follow(system, times).y[:, 10:] - exact).max(1)
-    assert lost[times < 8.0].max() < 5e-13
-    assert 1e-6 < lost.max() < 1e-3
-
-
-def jacobi(w: tuple[float, ...], t: float) -> list[float]:
-    """ω about axis 3 by the formulas of Landau and Lifshitz as printed (there I₁ < I₂ < I₃)."""
-    with mpmath.workdps(40):
-        I1, I2, I3 = (mpmath.mpf(x) for x in (FREE_C, B, FREE_A))
-        w3, w2, w1 = (mpmath.mpf(x) for x in w)
-        E2 = I1 * w1**2 + I2 * w2**2 + I3 * w3**2
-        M2 = (I1 * w1) ** 2 + (I2 * w2) ** 2 + (I3 * w3) ** 2
-        swapped = M2 < E2 * I2
-        if swapped:
-            I1, I3, w1, w3 = I3, I1, w3, w1
-        rate = mpmath.sqrt((I3 - I2) * (M2 - E2 * I1) / (I1 * I2 * I3))
-        m = (I2 - I1) * (E2 * I3 - M2) / ((I3 - I2) * (M2 - E2 * I1))
-        a = mpmath.sqrt((E2 * I3 - M2) / (I1 * (I3 - I1)))
-        b = mpmath.sqrt((E2 * I3 - M2) / (I2 * (I3 - I2)))
-        c = mpmath.sqrt((M2 - E2 * I1) / (I3 * (I3 - I1)))
-        # Their axes are (3, 2, 1) of ours, a left-handed order: time runs the other way.
-        sense = -1
-        phase = mpmath.ellipf(mpmath.atan2(sense * w2 / b, w1 / a), m)
-        u = rate * mpmath.mpf(t) + phase
-        sn, cn, dn = (mpmath.ellipfun(f, u, m=m) for f in ("sn", "cn", "dn"))
-        found = [c * dn, sense * b * sn, a * cn]
-        return [float(x) for x in (found[::-1] if swapped else found)]
 
 
 @pytest.mark.parametrize(("part", "about_first"), [(1.001, True), (0.999, False)])
@@ -380,11 +332,6 @@ def test_motion_is_the_closed_form(name: str) -> None:
     assert apart(gimbal(**VARIANTS[name])) < LIMIT
 
 
-def sound(mode: Any, name: str) -> Callable[..., Any]:
-    """A method as it is without the mistake."""
-    return getattr(super(type(mode), mode), name)
-
-
 def of_crossed_axes(self: Any, t: float, q: Any, v: Any) -> Any:
     """As if κ were zero."""
     one, two = self._torques(t, q, v)
@@ -405,11 +352,6 @@ def backward(self: Any, t: Any, q: Any, v: Any) -> Any:
     """φ about −n₂."""
     turned = np.array([1.0, -1.0])
     return sound(self, "poses")(t, q * turned, v * turned)
-
-
-def in_ground_axes(self: Any, t: Any, q: Any, v: Any) -> Any:
-    pose = sound(self, "poses")(t, q, v)["globe"]
-    return {"globe": (*pose[:10], *(free_cut.matrix(pose) @ np.array(pose[10:])))}
 
 
 def each_about_its_axis(self: Any, t: float, q: Any, v: Any) -> Any:
