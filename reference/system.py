@@ -163,8 +163,8 @@ class Mode(Numbered):
         raise NotImplementedError
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Where the bodies are cut free, for (2.23) and (2.27)."""
-        raise NotImplementedError
+        """Where the bodies are cut free, for (2.23) and (2.27): nowhere, if nothing holds them."""
+        return []
 
 
 @dataclass(frozen=True)

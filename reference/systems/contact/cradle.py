@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
+from ...system import Array, Guard, Load, Mass, Mode, Pose, System, Vector
 
 BODIES = ("left", "middle", "right")
 PAIRS = ("first", "second")
@@ -46,10 +46,6 @@ class _Free(Mode):
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """Nothing acts."""
-        return []
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """None: each moves alone."""
         return []
 
 

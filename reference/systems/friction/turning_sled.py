@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ...system import Array, Load, Mass, Mode, Pose, Vector
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,3 @@ class TurningSled(Mode):
         x, y, phi = q.tolist()
         at = x - self.l / 2 * math.cos(phi), y - self.l / 2 * math.sin(phi)
         return [Load("sled", at, self._friction(q, v))]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Nothing holds it."""
-        return []

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ...system import Array, Load, Mass, Mode, Pose, Vector
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,3 @@ class ChargeInField(Mode):
         (x, y), (x_dot, y_dot) = q.tolist(), v.tolist()
         deflected = (self.e * y_dot * self.B, -self.e * x_dot * self.B)
         return [Load("electron", (x, y), force) for force in (deflected, (0.0, self.F))]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Nothing holds it."""
-        return []

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ...system import Array, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
@@ -69,7 +69,3 @@ class FallingDrag(Mode):
         y, y_dot = float(q[0]), float(v[0])
         drag = -self.d * math.copysign(y_dot * y_dot, y_dot)
         return [Load("ball", (0.0, y), (0.0, force)) for force in (-self.m * G, drag)]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Returns none: nothing holds the ball."""
-        return []

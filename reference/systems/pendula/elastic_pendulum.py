@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ...system import Array, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
@@ -61,7 +61,3 @@ class ElasticPendulum(Mode):
         at, push = (float(q[0]) * cos, float(q[0]) * sin), -self.c * (float(q[0]) - self.l0)
         forces = ((0.0, -self.m * G), (push * cos, push * sin))
         return [Load(self.body, at, force) for force in forces]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Nothing holds the mass."""
-        return []

@@ -112,10 +112,6 @@ class TorqueFree(Mode):
         x, y, z = q[:3].tolist()
         return [Load("body", (x, y, z), (0.0, 0.0, -self.m * self.gravity))]
 
-    def cuts(self, t: float, q: Array) -> list[Any]:
-        """Nothing holds it."""
-        return []
-
 
 # Jacobi's solution of Euler's equations without a moment: the closed form of `torque_free`.
 
