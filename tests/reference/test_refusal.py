@@ -1,12 +1,11 @@
 """What ends a motion before its time is told as a mistake of the case, at its place."""
 
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from given import scenes, written_scenes
+from given import scenes
 from given.pendulum import pendulum
 from given.refused import refused
 from given.same_examples import examples
@@ -116,29 +115,6 @@ def test_a_muscle_that_loses_its_length_on_the_way(samples: int, tmp_path: Path)
     )  # fmt: skip
     assert w.t_events is not None
     assert f"beyond t = {w.t_events[0][0]:.4g} s: calf has no length there" in mistake.what
-
-
-@pytest.mark.slow
-def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
-    """Its own coordinates know no constraint; the generated answer stops where it lies flat."""
-    rhombus = scenes.SHIPPED["rhombus"]
-    soft = {name: replace(f, stiffness=1e-3) for name, f in rhombus.scene.forces.items()}  # type: ignore[call-overload]
-    case = replace(
-        rhombus,
-        scene=replace(rhombus.scene, forces=soft),
-        parameters={**rhombus.parameters, "c": 1e-3},
-    )
-    mistake = refused(case)
-    assert mistake.where == "duration"
-    assert "diagonal has no length there" in mistake.what
-
-
-@pytest.mark.slow
-def test_a_disk_that_bounces_until_it_rests_is_no_mistake(tmp_path: Path) -> None:
-    text, end = written_scenes.text("elastic")
-    solution = solve(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
-    assert [check for check in solution.checks if not check.holds] == []
-    np.testing.assert_allclose(solution.trajectory.states["wheel"][-1][[1, 4]], [0.25, 0.0])
 
 
 @pytest.mark.parametrize(

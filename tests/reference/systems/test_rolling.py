@@ -51,24 +51,6 @@ def equations(mode: Mode) -> float:
     return worst
 
 
-def balance(mode: Any) -> float:
-    """(2.23), (2.27) of the wheel cut free from the floor and from what holds it upright."""
-    worst, down = 0.0, np.array([math.sin(mode.alpha), 0.0, -math.cos(mode.alpha)])
-    for t, q, v in states(mode):
-        held, centre = mode.reactions(t, q, v), np.array(mode.poses(t, q, v)["wheel"][:3])
-        floor = free_cut.force(held, "touch", "fx fy normal")
-        wrenches: list[free_cut.Wrench] = [
-            ("wheel", centre, mode.m * G * down, np.zeros(3)),
-            ("wheel", centre - [0.0, 0.0, WHEEL["R"]], floor, np.zeros(3)),
-            ("wheel", centre, np.zeros(3), free_cut.force(held, "upright", "mx my mz")),
-        ]
-        changed = free_cut.change(mode, t, q, v, mode.accelerations(t, q, v))
-        forces = free_cut.total(mode, t, q, v, wrenches)
-        size = max(abs(floor).max(), mode.m * G)  # of what cancels in a row
-        worst = max(worst, float(abs(changed - forces).max()) / size)
-    return worst
-
-
 def cut_free(mode: Any) -> float:
     """Its own loads and cuts balance, and give the reactions that it states."""
     worst = 0.0
@@ -104,7 +86,7 @@ def power(mode: Mode) -> float:
     return max(found) / (WHEEL["m"] * G)
 
 
-LAWS = [equations, balance, cut_free, moves, slips, power]
+LAWS = [equations, cut_free, moves, slips, power]
 
 
 @NAMES
@@ -186,11 +168,11 @@ def at_the_centre(self: Any, t: float, q: Any) -> Any:
 
 
 MISTAKES = {
-    "transposed E": ({"poses": transposed}, balance),
+    "transposed E": ({"poses": transposed}, cut_free),
     "ω in ground axes": ({"poses": in_ground_axes}, moves),
     "floor's force at the centre": ({"cuts": at_the_centre}, cut_free),
     "φ counted backward": ({"poses": backward}, slips),
-    "lost gyroscopic couple": ({"reactions": gyroscopic}, balance),
+    "lost gyroscopic couple": ({"reactions": gyroscopic}, cut_free),
     "slip of the centre": ({"f_a": centre}, slips),
     "slip of the centre, as equations": ({"f_a": centre}, equations),
     "accelerations off": ({"accelerations": too_fast}, power),
