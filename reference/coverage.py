@@ -1,13 +1,14 @@
 """Which numbered equations a case really uses: those whose function runs, not those it claims.
 
-A function marked as an `equation` stands for those that open its docstring:
-`(2.44) d/dt ∂T/∂q̇ − …`. They are noted whenever it runs.
+A method of a `Numbered` class, or a function marked as an `equation`, stands for those that open
+its docstring: `(2.44) d/dt ∂T/∂q̇ − …`. They are noted whenever it runs.
 """
 
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import wraps
+from functools import cached_property, wraps
+from types import FunctionType
 from typing import Any, TypeVar, cast
 
 _OPENING = re.compile(r"\s*(?:\(2\.\d+\)(?:[-–](?:\(2\.\d+\))?)?(?:,| and)?\s*)+")
@@ -36,6 +37,32 @@ def equation(function: Marked) -> Marked:
         return function(*args, **named)
 
     return cast("Marked", noted)
+
+
+class Numbered:
+    """Base of classes whose methods note their equations: the docstring decides which do."""
+
+    __slots__ = ()
+
+    def __init_subclass__(cls, **named: Any) -> None:
+        super().__init_subclass__(**named)
+        for name, member in list(vars(cls).items()):
+            if equations(getattr(member, "__doc__", None)):
+                setattr(cls, name, _noting(member))
+
+
+def _noting(member: Any) -> Any:
+    """A method, or what a property or a static method is made of, as an `equation`."""
+    if isinstance(member, FunctionType):
+        return equation(member)
+    if isinstance(member, property):
+        return property(equation(cast("Callable[..., Any]", member.fget)))
+    if isinstance(member, staticmethod | classmethod):
+        return type(member)(equation(member.__func__))
+    if isinstance(member, cached_property):
+        member.func = equation(member.func)
+        return member
+    raise TypeError(f"{member!r} opens with an equation, and cannot be noted")
 
 
 @contextmanager

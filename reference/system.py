@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .coverage import Numbered
+
 Array = NDArray[np.float64]
 Vector = NDArray[Any]  # real, or complex while a derivative is taken
 Pose = tuple[Any, ...]
@@ -77,7 +79,7 @@ class Cut:
     moments: tuple[tuple[float, ...], ...] = ()
 
 
-class Mode:
+class Mode(Numbered):
     """Defaults for a mechanism with coordinates q, velocities v (n,) and r constraints.
 
     q̇ = N(t, q) v + n₀(t, q); most have v = q̇.  A quaternion has four coordinates and three
@@ -154,15 +156,15 @@ class Mode:
 
     def g(self, t: Any, q: Vector) -> Vector:
         """Right side (r,) of the constraints (2.15), zero unless a part is driven."""
-        return np.zeros(0)
+        return np.zeros(len(self.f_a(t, q)))
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """Applied forces on the free-cut bodies, for (2.23) and (2.27)."""
         raise NotImplementedError
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Where the bodies are cut free, for (2.23) and (2.27)."""
-        raise NotImplementedError
+        """Where the bodies are cut free, for (2.23) and (2.27): nowhere, if nothing holds them."""
+        return []
 
 
 @dataclass(frozen=True)
@@ -190,7 +192,7 @@ class Guard:
     rounds: Callable[[Array], float] = lambda q: 0.0
 
 
-class System:
+class System(Numbered):
     """Defaults for a system of several modes, all with the same coordinates and bodies."""
 
     modes: Mapping[str, Mode]

@@ -31,7 +31,7 @@ QUICK = ("-m", "not slow", "tests")
 # matplotlib write a table and a picture, jinja a page, numpy and scipy make tables and roots.
 SMOKE = (
     "-m", "not slow", "tests/cases/test_units.py", "tests/cases/test_mistakes.py",
-    "tests/reference/integrators/test_tables.py",
+    "tests/reference/integrators/test_accuracy.py::test_radau_conditions",
     "tests/reference/systems/test_closed_forms.py::test_no_number_is_complex",
     "tests/reports/batch/cache/test_store.py", "tests/reports/page/test_heat.py",
     "tests/reports/test_exit_codes.py", "tests/reports/test_passing.py",

@@ -79,7 +79,6 @@ class Karnopp(System):
         """At rest at x = 0, where it must stick."""
         return "stuck", np.zeros(1), np.zeros(1)
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.91) `slips` and `stops`."""
         return guards(self.pull, self.dry, mode, Delta=self.Delta, keeps_v=self.literal)

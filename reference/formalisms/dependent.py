@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..coverage import equation
+from ..coverage import Numbered
 from ..system import Array, Mode, Vector
 from .lagrange import (
     constraint_rows,
@@ -30,7 +30,7 @@ REGULAR = 1e-6  # of the largest pivot: what a smaller one determines has lost h
 
 
 @dataclass(frozen=True)
-class Dependent:
+class Dependent(Numbered):
     """a1 (k,) independent rates, a2 (m − k,) those that depend on them.
 
     `bound` (r,) are as many velocities, for which f_a v = g is solved: a2 where q̇ = v is `plain`.
@@ -43,7 +43,6 @@ class Dependent:
     a1: Places
     a2: Places
 
-    @equation
     def alpha(self, t: Any, q: Vector) -> Vector:
         """(2.61) α (m − k, k) of q̇^{a2} = α^{a2}_{a1} q̇^{a1} + γ^{a2}."""
         return self.solved(t, q)[0]
@@ -64,7 +63,6 @@ class Dependent:
         """q̇ (m,) or (m, K) in its order, γ (m − k,) or (m − k, 1)."""
         return np.concatenate([independent, alpha @ independent + gamma])[self._order]
 
-    @equation
     def reduced(self, t: Any, q: Vector) -> Callable[..., Any]:
         """(2.63) T' = T(t, q, q̇^{a1}, α q̇^{a1} + γ) [J] of many q̇^{a1} (k, K), at this t and q."""
         alpha, gamma = self.solved(t, q)
@@ -103,7 +101,6 @@ class Dependent:
         B, _ = self.admissible(t, q)
         return self._free(t, q)[0] @ np.linalg.inv(B[self.a1])
 
-    @equation
     def forces(self, t: float, q: Array, v: Array) -> Array:
         """(2.78) Π_{a1} = Q_{a1} + Q_{a2} α^{a2}_{a1} (k,), Q of (2.45)–(2.50)."""
         slopes = gradient(lambda q: self.system.U(t, q), q)

@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..coverage import equation
+from ..coverage import Numbered, equation
 from ..system import Array
 
 Interval = Callable[[float, float, Any], Any]  # h(a, b, x): 1 between a and b, else 0
 
 
 @dataclass(frozen=True)
-class Dry:
+class Dry(Numbered):
     """F₋, F₊ against sliding to −x and +x, and the bounds F_s₋, F_s₊ of stiction [N], all ≥ 0.
 
     Stiction below the sliding friction is refused: (2.89) would then start a body and stop it in
@@ -38,7 +38,6 @@ class Dry:
         if self.F_minus > self.Fs_minus or self.F_plus > self.Fs_plus:
             raise ValueError(f"kinetic friction must not be above static friction: {self}")
 
-    @equation
     def sticks(self, F_a: float) -> bool:
         """(2.89) −F_s₋ ≤ F_a ≤ F_s₊: the band is closed."""
         return -self.Fs_minus <= F_a <= self.Fs_plus

@@ -298,7 +298,6 @@ class FreeBodies(Stated):
             for body in scene.bodies.values()
         }
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_k, E_k: a free body's coordinates are its own parameters."""
         at = {name: (q[i], v[i]) for i, name in enumerate(self.coordinates)}
@@ -308,7 +307,6 @@ class FreeBodies(Stated):
             found[name] = (*(place for place, _ in both), *(rate for _, rate in both))
         return found
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = Σ ½ m ṙ_c² + ½ J₃₃ ω² [J]."""
         energy: Any = 0.0
@@ -317,7 +315,6 @@ class FreeBodies(Stated):
             energy = energy + (mass.m * (vx**2 + vy**2) + (mass.J or 0.0) * omega**2) / 2
         return energy
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c [J]."""
         gx, gy = self.scene.gravity

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...cases.scene import GROUND, Anchor, Joint, Scene
-from ..coverage import equation
+from ..coverage import Numbered
 from ..mechanism.kinematics.attitude import matrices, skew
 from ..stated import Stated
 from ..system import Mass, Pose, Vector
@@ -15,7 +15,7 @@ UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True)
-class Moving:
+class Moving(Numbered):
     """A frame on its way along the chain: r (3,), a unit quaternion, ṙ and ω in ground axes.
 
     Of K rates at once ṙ and ω are (3, K).
@@ -31,7 +31,6 @@ class Moving:
         """(3, 3) whose columns are its axes in ground axes."""
         return matrices(self.e[None])[0]
 
-    @equation
     def at(self, x: Any) -> "Moving":
         """(2.1), (2.6) The same axes at a point x, in them: r + R x, ṙ + ω × R x."""
         d = self.R @ np.asarray(x)
@@ -43,7 +42,6 @@ class Moving:
         r_dot = there.r_dot + np.multiply.outer(along, s_dot)
         return Moving(there.r, self.e, r_dot, self.omega)
 
-    @equation
     def turned(self, u: Any, phi: Any, phi_dot: Any) -> "Moving":
         """(2.3)–(2.5) About its axis u by φ: ω = ω + φ̇ u."""
         omega = self.omega + np.multiply.outer(self.R @ np.asarray(u), phi_dot)
@@ -60,7 +58,6 @@ class SpatialChain(Stated):
         self.coordinates = tuple(names)
         self.masses = {body.name: Mass(body.mass, body.tensor) for body in scene.bodies.values()}
 
-    @equation
     def _bodies(self, q: Vector, v: Vector) -> dict[str, Moving]:
         """(2.11), (2.12) Every body's frame in its centre, as the coordinates have it.
 
@@ -90,7 +87,6 @@ class SpatialChain(Stated):
             return np.array(self.scene.points[anchor.point].at)
         return np.array(self.scene.bodies[anchor.body].points[anchor.point])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k by the coordinates, and their rates by (2.6)."""
         return {
@@ -98,7 +94,6 @@ class SpatialChain(Stated):
             for name, at in self._bodies(q, v).items()
         }
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = Σ ½ m ṙ_c² + ½ J_ik ω_i ω_k [J] of the rates (n,) or (n, K)."""
         found: Any = 0.0
@@ -108,7 +103,6 @@ class SpatialChain(Stated):
             found = found + (mass.m * np.sum(at.r_dot**2, axis=0) + own) / 2
         return found
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c [J]."""
         g, still = np.array(self.scene.gravity), np.zeros(len(q))

@@ -182,31 +182,6 @@ allow: {p.angle: 1.0e-3"""
 
 
 @pytest.mark.slow
-def test_while_a_pendulum_swings_on_it_the_pins_force_is_open(tmp_path: Path) -> None:
-    """A bar lies on its hinge and a rubbing tip: fx and the friction share what pulls."""
-    tail = scenes.tail(0.3, 13)
-    found = solve(
-        scenes.typed(tmp_path, f"{ON_A_HINGE}, tip.normal: 0.1, h.fy: 0.1}}\n", tail=tail)
-    )
-    assert found.holds
-    alone = """\
-scene:
-  points: {O: [0.75, 0]}
-  bodies: {p: {bar: {mass: 1.0, length: 0.5}}}
-  joints: {k: {pin: [ground.O, p.start]}}
-initial: {p: {angle: 20 deg}}
-allow: {p.angle: 1.0e-3}
-"""
-    free = solve(scenes.typed(tmp_path, alone, tail=tail)).trajectory
-    own = found.trajectory
-    assert own.states["p"] == pytest.approx(free.states["p"], abs=1e-10)
-    assert own.reactions["tip.normal"] == pytest.approx(G + free.reactions["k.fy"] / 2, abs=1e-9)
-    for name in ("h.fx", "h.force", "tip.tangent"):
-        mistake = refused(scenes.typed(tmp_path, f"{ON_A_HINGE}, {name}: 0.1}}\n", tail=tail))
-        assert (mistake.where, "anything from" in mistake.what) == (f"allow.{name}", True)
-
-
-@pytest.mark.slow
 @pytest.mark.mutant("forces that statics leaves open taken for determined")
 def test_what_is_open_and_is_taken_for_one_value_fails_by_itself(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

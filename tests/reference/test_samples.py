@@ -1,11 +1,9 @@
-"""No answer depends on how often it is looked at: fewer samples, more, and some on its events.
+"""No answer depends on how often it is looked at, nor on the order of what a file names."""
 
-Every shipped case is solved once more with another number of samples, and held against what its own
-say: the motion at common times, the events, and the verdict of the certificate.
-"""
-
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,11 +12,16 @@ from given.refused import refused
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
+from textmech.cases.scene import Scene
 from textmech.reference import assumptions
 from textmech.reference.assumptions import check_premises
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import mechanism, solve
 from textmech.reference.systems import written
+
+# No answer depends on how often it is looked at: fewer samples, more, and some on its events.
+# Every shipped case is solved once more with another number of samples, and held against what its
+# own say: the motion at common times, the events, and the verdict of the certificate.
 
 NAMES = list(scenes.SHIPPED)
 
@@ -201,3 +204,55 @@ def test_a_premise_of_samples_alone_is_seen(
         lambda case, motion, happened: check_premises(case, at_samples, happened),
     )
     assert solve(case).holds
+
+
+# No answer depends on the order in which a file names its parts: the same motion, the same events.
+# A shipped case of each file is solved once more with all its parts in the opposite order, from
+# which the mechanism numbers its coordinates, its constraint rows and the elements that may change.
+
+PARTS = ("bodies", "joints", "contacts", "forces", "constraints", "pairs", "drives")
+
+
+def backward(scene: Scene) -> Scene:
+    """The same scene with every part that has several elements in the opposite order."""
+    turned: dict[str, Any] = {}
+    for part in (f.name for f in fields(scene)):
+        elements = getattr(scene, part)
+        if part in PARTS and isinstance(elements, Mapping):
+            turned[part] = {name: elements[name] for name in reversed([*elements])}
+    return replace(scene, **turned)
+
+
+def other(case: Case) -> Case:
+    """The case with its scene turned around, which the hand-written system does not read."""
+    return replace(case, scene=backward(case.scene))
+
+
+def several(case: Case) -> bool:
+    """Whether the scene has any two elements of one kind."""
+    return any(len(getattr(case.scene, part)) > 1 for part in PARTS)
+
+
+WITH_SEVERAL = [name for name in scenes.ONE_OF_EACH_FILE if several(scenes.SHIPPED[name])]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WITH_SEVERAL)
+def test_the_other_way_around_it_moves_the_same(name: str) -> None:
+    case, known = scenes.SHIPPED[name], scenes.solved(name)
+    turned = other(case)
+    assert list(resampled.differences(case, known, turned, solve(turned))) == []
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a mass goes with the place in the file and not with its body")
+def test_what_goes_by_its_place_is_seen() -> None:
+    case, known = scenes.SHIPPED["cradle.alike"], scenes.solved("cradle.alike")
+    bodies = case.scene.bodies
+    heavy = {
+        name: replace(body, mass=(i + 1) * body.mass)
+        for i, (name, body) in enumerate(bodies.items())
+    }
+    assert len(bodies) > 1
+    turned = replace(case, scene=replace(case.scene, bodies=heavy))
+    assert list(resampled.differences(case, known, turned, solve(turned))) != []

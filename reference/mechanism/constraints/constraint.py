@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ....cases.scene import Anchor
-from ...coverage import equation
+from ...coverage import Numbered, equation
 from ..kinematics.kinematics import Kinematics, Layout, Point, Row
 from .constraint_terms import Along, Term
 from .equation_table import Table
@@ -21,7 +21,7 @@ COMPONENTS = {"fx": 0, "fy": 1, "fz": 2, "mx": 0, "my": 1, "mz": 2}
 
 
 @dataclass(frozen=True)
-class Constraint:
+class Constraint(Numbered):
     """In each row the sum of the terms is zero, and what it is the rate of stays what it is."""
 
     part: str  # the joint or contact it belongs to
@@ -52,7 +52,6 @@ class Constraint:
         """The place [m or rad] that each row is the rate of, (r,); nan where it is of none."""
         return self.alone.places(t, q)
 
-    @equation
     def f(self, t: Any, q: Numbers) -> list[Any]:
         """(2.14) f = places − where they are held [m or rad], (≤ r,); () if all are rates."""
         if self.held is None:
@@ -60,7 +59,6 @@ class Constraint:
         pairs = zip(self.places(t, q), self.held, strict=True)
         return [place - at for place, at in pairs if at is not None]
 
-    @equation
     def reactions(self, t: float, q: Numbers, multipliers: Numbers) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: a force λ u along the direction of its row, or a moment λ."""
         return self.alone.reactions(t, q, dict(enumerate(multipliers)))
@@ -72,7 +70,6 @@ class Constraint:
 
     # What a table asks, to write its rows down.
 
-    @equation
     def written(self, k: Kinematics) -> list[Row]:
         """(2.15) Its rows."""
         ends = self._ends(k)

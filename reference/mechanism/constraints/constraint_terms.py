@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ....cases.scene import Signal
-from ...coverage import equation
+from ...coverage import Numbered
 from ..kinematics import signal
 from ..kinematics.frame import Vec
 from ..kinematics.kinematics import Direction, Kinematics, Point, Row
@@ -46,14 +46,13 @@ class Term(Protocol):
 
 
 @dataclass(frozen=True)
-class Along:
+class Along(Numbered):
     """The velocity of a point along a direction fixed to the ground: u·ṙ_p [m/s]."""
 
     p: int
     u: Numbers
     angular = False
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) f = (u, d × u)."""
         return k.along(ends[self.p], k.fixed(self.u))
@@ -68,14 +67,13 @@ class Along:
 
 
 @dataclass(frozen=True)
-class Turning:
+class Turning(Numbered):
     """The turn of a body of the plane, times a factor: that of ω [rad/s]."""
 
     p: int
     axis: float = 1.0  # about +z; with a radius R the term is the velocity R ω [m/s]
     angular = True
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) ω = φ̇; γ = 0."""
         return Row([(ends[self.p].part, None, Vec((self.axis,)))])
@@ -90,7 +88,7 @@ class Turning:
 
 
 @dataclass(frozen=True)
-class Line:
+class Line(Numbered):
     """The rate of the distance of b from a along u, u turning with a: d/dt u·Δ [m/s]."""
 
     a: int
@@ -101,7 +99,6 @@ class Line:
     def _carried(self, k: Kinematics, ends: Ends) -> Direction:
         return k.carried(ends[self.a].part, self.u)
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·Δ̇ + ω_a·(u × Δ)."""
         return k.line(ends[self.a], ends[self.b], self._carried(k, ends))
@@ -116,14 +113,13 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Apart:
+class Apart(Numbered):
     """How fast b parts from a: d/dt λ [m/s]; the multiplier pushes both apart."""
 
     a: int
     b: int
     angular = False
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·Δ̇, and u̇ = (Δ̇ − (u·Δ̇) u)/λ."""
         a, b = ends[self.a], ends[self.b]
@@ -140,7 +136,7 @@ class Apart:
 
 
 @dataclass(frozen=True)
-class Distance:
+class Distance(Numbered):
     """How fast b nears a: −d/dt λ [m/s]; the multiplier pulls both together."""
 
     a: int
@@ -151,7 +147,6 @@ class Distance:
     def _apart(self) -> Apart:
         return Apart(self.a, self.b)
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) −u·Δ̇."""
         return -self._apart.row(k, ends)
@@ -166,14 +161,13 @@ class Distance:
 
 
 @dataclass(frozen=True)
-class Around:
+class Around(Numbered):
     """How fast b goes around a in the plane: w·Δ̇ [m/s], w with u to its left."""
 
     a: int
     b: int
     angular = False
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) w·Δ̇, and ẇ turns with u̇."""
         a, b = ends[self.a], ends[self.b]
@@ -189,14 +183,13 @@ class Around:
 
 
 @dataclass(frozen=True)
-class Carried:
+class Carried(Numbered):
     """The velocity of a point along a direction that its body carries: u·ṙ_p [m/s]."""
 
     p: int
     u: Numbers  # in the axes of the body
     angular = False
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) f = (u, d × u), d × u being the same in body axes at all times."""
         p = ends[self.p]
@@ -211,13 +204,12 @@ class Carried:
 
 
 @dataclass(frozen=True)
-class Given:
+class Given(Numbered):
     """A prescribed velocity, with the opposite sign: −s(t) [m/s], or of a turn [rad/s]."""
 
     law: Signal
     angular: bool = False
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) g = s(t), and γ = ṡ(t)."""
         (size,) = self.law.amplitude
@@ -233,7 +225,7 @@ class Given:
 
 
 @dataclass(frozen=True)
-class Dot:
+class Dot(Numbered):
     """The rate of u·w, u fixed in a and w in b: (ω_b − ω_a)·(w × u) [rad/s], in space."""
 
     a: int
@@ -246,7 +238,6 @@ class Dot:
         a, b = ends[self.a].part, ends[self.b].part
         return k.carried(a, self.u), k.carried(b, self.w)
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) The moment w × u on b, and its rate by u̇ = ω_a × u and ẇ = ω_b × w."""
         u, w = self._axes(k, ends)
@@ -266,7 +257,7 @@ class Dot:
 
 
 @dataclass(frozen=True)
-class Turn:
+class Turn(Numbered):
     """The rate of one turn of a joint in space, m·(ω_b − ω_a) [rad/s].
 
     Of two turns about n₁, fixed in a, and n₂, fixed in b, with n₁·n₂ = c, ω_rel = θ̇₁ n₁ + θ̇₂ n₂
@@ -286,7 +277,6 @@ class Turn:
         own, beside = self.weights
         return one.u * own + other.u * beside, one.u_dot * own + other.u_dot * beside
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) m·(ω_b − ω_a), and γ = −ṁ·(ω_b − ω_a)."""
         return k.turn(ends[self.a].part, ends[self.b].part, *self._axis(k, ends))
@@ -300,7 +290,7 @@ class Turn:
 
 
 @dataclass(frozen=True)
-class Lowest:
+class Lowest(Numbered):
     """The velocity of the lowest point of a rim or a sphere along a direction of the ground.
 
     ρ = −R (z − (z·n) n)/√(1 − (z·n)²) from the centre (2.19), n the axle; of a sphere ρ = −R z.
@@ -323,7 +313,6 @@ class Lowest:
         steep_dot = -(n * s_dot + n_dot * s) * each + steep * (s * s_dot * each * each)
         return k.armed(part, steep * -self.radius, steep_dot * -self.radius)
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.19) u·(ṙ_c + ω × ρ); its rate has ω × ρ̇ beside accelerations."""
         return k.along(self._point(k, ends), k.fixed(self.u))
@@ -338,7 +327,7 @@ class Lowest:
 
 
 @dataclass(frozen=True)
-class Heading:
+class Heading(Numbered):
     """The velocity of a point to the left of a blade's heading [m/s], in space.
 
     The heading h is the shadow of the long axis along z: u = (−h_y, h_x, 0)/|h|, and so
@@ -356,7 +345,6 @@ class Heading:
         x, y, turning = x * each, y * each, (x * y_dot - y * x_dot) * each * each
         return Direction(Vec((-y, x, 0.0)), Vec((-(turning * x), -(turning * y), 0.0)))
 
-    @equation
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·ṙ_P."""
         return k.along(ends[self.p], self._left(k, ends))

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ..kinematics.frame import Vec
 from ..kinematics.kinematics import Kinematics, Layout, Part, Row
 from ..kinematics.tape import Compiled, is_number
@@ -37,7 +37,7 @@ class Acting(Protocol):
     def loads(self, k: Kinematics) -> list[tuple[Part, Vec | None, Vec | None]]: ...
 
 
-class Table:
+class Table(Numbered):
     """The rows of some constraints in their order, and behind them some forces in theirs."""
 
     def __init__(
@@ -125,7 +125,6 @@ class Table:
         numbers.reshape(-1)[targets] = run.complex(t, q.tolist(), v.tolist())
         return numbers
 
-    @equation
     def rows(self, t: Any, q: Any, v: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
         numbers = self.entries(t, q, v)[: self.size].copy()
@@ -150,7 +149,6 @@ class Table:
         names = [(i, name) for i, told in enumerate(each) for name in told]
         return *_apart(k, [x for told in each for x in told.values()]), names
 
-    @equation
     def reactions(
         self, t: float, q: Sequence[Any], multipliers: Mapping[int, Any]
     ) -> dict[str, Any]:
@@ -172,7 +170,7 @@ def _apart(k: Kinematics, numbers: Sequence[Any]) -> tuple[Compiled, list[float 
     return k.tape.compiled(changing), fixed
 
 
-class Rows:
+class Rows(Numbered):
     """The rows of some constraints in a table: those of one mode."""
 
     def __init__(self, table: Table, constraints: Sequence[Held]) -> None:
@@ -195,13 +193,11 @@ class Rows:
         row, column = np.nonzero(self.table.pattern[self.places])
         return row, column
 
-    @equation
     def __call__(self, t: Any, q: Any, v: Any) -> tuple[Any, Any, Any]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a q̈ᵃ = γ."""
         numbers = self.table.entries(t, q, v)[self._taken]
         return numbers[:, :G], numbers[:, G], numbers[:, GAMMA]
 
-    @equation
     def entries(self, t: float, q: Any, v: Any) -> tuple[Any, Any]:
         """(2.15) Those of the f_a that `pattern` names, and γ (r,)."""
         numbers, (row, column) = self.table.numbers(t, q, v), self.pattern

@@ -29,7 +29,7 @@ from ....cases.scene.forces.force import (
     TorsionDamper,
     of,
 )
-from ...coverage import equation
+from ...coverage import Numbered, equation
 from ...laws.force import hill, linear, torsion, torsion_damper
 from ...laws.friction import power_law
 from ..kinematics.frame import Vec, back, carried
@@ -49,7 +49,7 @@ class NoDirection(ArithmeticError):
 
 
 @dataclass(frozen=True)
-class Action:
+class Action(Numbered):
     """A force element by its formulas; one that has no U, V, D or Q₄ says nothing of them."""
 
     force: Force
@@ -73,22 +73,18 @@ class Action:
         """(2.50) What it exerts, on each part."""
         raise NotImplementedError
 
-    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) its share of U [J]."""
         return 0.0
 
-    @equation
     def V(self, k: Kinematics) -> Any:
         """(2.48) its share of V [J]."""
         return 0.0
 
-    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) its share of D [W]."""
         return 0.0
 
-    @equation
     def Q4(self, k: Kinematics) -> list[Load]:
         """(2.50) what it exerts, of what has no U, no V and no D."""
         return []
@@ -165,7 +161,6 @@ class Sprung(Lined):
     def line(self) -> bool:
         return self.force.rest_length > 0.0
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.82) c (λ − λ₀) along Δ on the first end: stretched, it pulls."""
         d, force = self.gap(k), self.force
@@ -176,7 +171,6 @@ class Sprung(Lined):
             k, *self.ends(k), d * (force.stiffness * (length - force.rest_length) / length)
         )
 
-    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) ½ c (λ − λ₀)²; ½ c λ² has a derivative at λ = 0 too."""
         if self.force.rest_length == 0.0:
@@ -223,14 +217,12 @@ class Damped(Lined):
     def line(self) -> bool:
         return False
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.47) d λ̇ along Δ on the first end, λ̇ = Δ·Δ̇/λ."""
         d, rate = self.gap(k), self.gap_dot(k)
         along = [self._along(k, (d @ rate) * x, v) for x, v in zip(d, rate, strict=True)]
         return pulled(k, *self.ends(k), Vec(along) * self.force.damping)
 
-    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) ½ d λ̇²."""
         d, rate = self.gap(k), self.gap_dot(k)
@@ -264,7 +256,6 @@ class Contracted(Lined):
         beside = self.force.parallel_stiffness * (length - self.force.rest_length)
         return pulled(k, *self.ends(k), self.gap(k) * ((self._series(k) + beside) / length))
 
-    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) ½ c_s (λ − u)² + ½ c_p (λ − λ₀)² [J]."""
         series = self._series(k) / self.force.series_stiffness
@@ -308,14 +299,12 @@ class Pushed(Action):
 
     force: Push
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) F(t)."""
         force = self.force
         F = Vec(force.signal.amplitude) * k.signal(force.signal)
         return [pushed(k, k.point(force.at), F)]
 
-    @equation
     def Q4(self, k: Kinematics) -> list[Load]:
         """(2.50) F·∂r/∂qᵃ, with d × F of ground axes."""
         p = k.point(self.force.at)
@@ -329,7 +318,6 @@ class Torqued(Action):
 
     force: Torque
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) M(t)."""
         part, law = k.part(self.force.body), self.force.signal
@@ -345,7 +333,6 @@ class Coupled(Action):
 
     force: Couple
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) M·∂(φ₂ − φ₁)/∂qᵃ."""
         M = Vec(self.force.signal.amplitude) * k.signal(self.force.signal)
@@ -363,14 +350,12 @@ class Deflected(Action):
     def _centre(self, k: Kinematics) -> Point:
         return k.point(Anchor(self.force.body, CENTER))
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.49) F = e v × B, to the right of v for e B > 0."""
         centre, each = self._centre(k), self.force.charge * self.force.along_z
         x_dot, y_dot = centre.r_dot
         return [pushed(k, centre, Vec((each * y_dot, -(each * x_dot))))]
 
-    @equation
     def V(self, k: Kinematics) -> Any:
         """(2.49) V = ½ e B (y ẋ − x ẏ) [J]."""
         centre = self._centre(k)
@@ -399,7 +384,6 @@ class Turned(Action):
         """M m."""
         return self.turn(k).m * self.M(k)
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.50) M m on the second part, its opposite on the first."""
         return self.turn(k).couple(k, self.moment(k))
@@ -411,12 +395,10 @@ class Twisted(Turned):
 
     force: Torsion
 
-    @equation
     def M(self, k: Kinematics) -> Any:
         """(2.45) −c (φ − φ₀)."""
         return torsion(self.force.stiffness, self.force.rest_angle, self.turn(k).angle)
 
-    @equation
     def U(self, k: Kinematics) -> Any:
         """(2.45) ½ c (φ − φ₀)²."""
         return 0.5 * self.force.stiffness * (self.turn(k).angle - self.force.rest_angle) ** 2
@@ -428,12 +410,10 @@ class Braked(Turned):
 
     force: TorsionDamper
 
-    @equation
     def M(self, k: Kinematics) -> Any:
         """(2.47) −d φ̇."""
         return torsion_damper(self.force.damping, self.turn(k).rate)
 
-    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) ½ d φ̇²."""
         return 0.5 * self.force.damping * self.turn(k).rate ** 2
@@ -449,7 +429,6 @@ class Driven(Turned):
         """M(t)."""
         return self.force.signal.amplitude[0] * k.signal(self.force.signal)
 
-    @equation
     def Q4(self, k: Kinematics) -> list[Load]:
         """(2.50) M ∂φ̇/∂ω of both parts."""
         turn = self.turn(k)
@@ -473,7 +452,6 @@ class Dragged(Action):
         both = (u, Vec((-u[1], u[0])))
         return [(d, e, e @ p.r_dot) for d, e in zip(self.force.ways, both, strict=True)]
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.83), (2.84), (2.85), (2.86) −d |v|^α v/|v|, or Σ −d_i |v_i|^α sign(v_i) e_i."""
         p, force = k.point(self.force.at), self.force
@@ -483,7 +461,6 @@ class Dragged(Action):
         each = [e * k.tape.call(OneWay(d, force.exponent), s) for d, e, s in self._ways(k)]
         return [pushed(k, p, each[0] + each[1])]
 
-    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) D = d |v|^{α+1}/(α + 1) [W], or the sum of both ways."""
         p, force = k.point(self.force.at), self.force
@@ -506,14 +483,12 @@ class Slowed(Action):
         u = k.carried(a.part, joint.along).u
         return a, b, u, u @ (b.r_dot - a.r_dot)
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.86) −d |v|^α sign(v) along u on the second part."""
         a, b, u, speed = self._along(k)
         F = u * k.tape.call(OneWay(self.force.coefficient, self.force.exponent), speed)
         return pulled(k, b, a, F)
 
-    @equation
     def D(self, k: Kinematics) -> Any:
         """(2.46) D = d |v|^{α+1}/(α + 1) [W], d that of the way it goes."""
         speed = self._along(k)[3]
@@ -583,12 +558,11 @@ def blurred(scene: Scene, speed: float) -> float:
 
 
 @dataclass(frozen=True)
-class Gyroscopic:
+class Gyroscopic(Numbered):
     """The moment beside those on a body in space, as Ḋ_c = J ω̇ + ω × J ω = M_c."""
 
     name: str
 
-    @equation
     def loads(self, k: Kinematics) -> list[Load]:
         """(2.27), (2.33) −ω × J ω, in body axes."""
         part, J = k.part(self.name), k.scene.bodies[self.name].tensor

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ..kinematics.kinematics import Kinematics, Layout
 from ..kinematics.tape import Compiled
 from .action import Action
@@ -14,28 +14,24 @@ from .action import Action
 MOMENTS = ("mx", "my", "mz")
 
 
-class Ingredients:
+class Ingredients(Numbered):
     """Energies [J], powers [W] and generalized forces, summed over the forces."""
 
     def __init__(self, where: Layout, actions: Sequence[Action]) -> None:
         self._where, self._actions = where, actions
 
-    @equation
     def U(self, t: Any, q: Any) -> Any:
         """(2.45) U [J] of the forces of class 1."""
         return self._U(t, q)[0]
 
-    @equation
     def V(self, t: Any, q: Any, v: Any) -> Any:
         """(2.48) V [J] of those of class 3, of the rates v (m,) or (m, K)."""
         return self._V(t, q, v)[0]
 
-    @equation
     def D(self, t: Any, q: Any, v: Any) -> Any:
         """(2.46) D [W] of those of class 2."""
         return self._D(t, q, v)[0]
 
-    @equation
     def Q4(self, t: Any, q: Any, v: Any) -> Any:
         """(2.50) Q₄ (n,) of those of class 4."""
         return np.array(self._Q4(t, q, v))

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....cases.scene import Scene
-from ...coverage import equation
 from ...system import Pose
 from .frame import PLANE
 from .kinematics import Layout, Slots
@@ -77,7 +76,6 @@ class Coordinates(Layout):
         """J [kg m²] of a body; None of a particle."""
         return body.moment if body.turns else None
 
-    @equation
     def T(self, q: Any, v: Any) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ J ω² [J] of the rates v (n,) or (n, K)."""
         M = np.array(self.masses)
@@ -88,7 +86,6 @@ class Coordinates(Layout):
         """q̇ = v."""
         return v
 
-    @equation
     def poses(self, q: Any, v: Any) -> dict[str, Pose]:
         """(2.8) R_k, E_k of each body: its entries of q and v (n,), a particle's angle being 0."""
         return {

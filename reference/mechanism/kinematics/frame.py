@@ -7,7 +7,7 @@ velocities of a body hold ω in its own axes, which in the plane is the same num
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-from ...coverage import equation
+from ...coverage import Numbered
 
 
 class Vec(tuple[Any, ...]):
@@ -93,11 +93,10 @@ class _Plane:
         return w
 
 
-class _Space:
+class _Space(Numbered):
     axes: Columns = (Vec((1.0, 0.0, 0.0)), Vec((0.0, 1.0, 0.0)), Vec((0.0, 0.0, 1.0)))
     turns, attitude = 3, 4
 
-    @equation
     def rotation(self, maths: Any, e: Sequence[Any]) -> Columns:
         """(2.3) R of the quaternion e = (w, x, y, z), whose length plays no part: that of e/|e|."""
         w, x, y, z = e

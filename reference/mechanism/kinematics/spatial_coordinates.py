@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from ....cases.scene import Scene
 from ....cases.scene.body import Body
 from ....cases.scene.forces.turning import Turning
-from ...coverage import equation
 from ...system import Pose
 from .attitude import rates, spin
 from .frame import SPACE
@@ -104,7 +103,6 @@ class SpatialCoordinates(Layout):
         tensors = np.array([b.tensor for b in bodies if b.turns]).reshape(-1, 3, 3)
         return places, np.array([b.mass for b in bodies]), tensors
 
-    @equation
     def T(self, q: Any, v: Any) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ ω·J ω [J] of the rates q̇ (m,) or (m, K)."""
         places, m, J = self._inertias
@@ -118,7 +116,6 @@ class SpatialCoordinates(Layout):
             energy = energy + 0.5 * turned.sum(axis=(0, 1))
         return energy
 
-    @equation
     def poses(self, q: Any, v: Any) -> dict[str, Pose]:
         """(2.8) R_k, E_k of each body: r, the quaternion with its length 1, ṙ, ω."""
         return {name: self._pose(at, q, v) for name, at in self.slots.items()}
@@ -165,7 +162,6 @@ class SpatialCoordinates(Layout):
             [at.r_dot + i for at in self.slots.values() for i in range(3)], np.intp
         )
 
-    @equation
     def rates(self, q: Any, v: Any) -> Any:
         """(2.5), (2.6) q̇ (m,) of q and v: ṙ, and ½ q ∘ (0, ω)."""
         q_dot = np.empty(len(self.names), np.result_type(q, v))

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from ....cases.scene import DryFriction, Scene
-from ...coverage import equation
+from ...coverage import Numbered
 from ...laws.friction import Dry, stiction, stribeck
 from ..constraints.constraint import Constraint, Numbers, row
 from ..constraints.contact import Braking, Coulomb, at_rest, foot, normal, tangent
@@ -50,7 +50,7 @@ def dry(friction: DryFriction) -> Dry:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Element:
+class Element(Numbered):
     """Something that has states; by itself, one that is never left.
 
     slip: the row along which it slips. normal: the row that a contact gives up when it opens.
@@ -186,14 +186,12 @@ class Touching(Element):
         assert self.normal is not None
         return {"open": [], "sticks": [self.normal, self.tangent]}.get(state, [self.normal])
 
-    @equation
     def coulomb(self, state: State) -> list[Coulomb]:
         """(2.87) F = −μ F_N sign(v)."""
         s = sign(state)
         assert self.normal is not None
         return [Coulomb(self.normal, self.tangent, -self.kinetic * s)] if s else []
 
-    @equation
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.89) μ_s F_N ± F_fr [N]: negative where it breaks loose to + and to −."""
         bound = self.static * forces[f"{self.name}.normal"]
@@ -216,7 +214,6 @@ class Sliding(Element):
         """Nothing, or no slip."""
         return [self.tangent] if state == "sticks" else []
 
-    @equation
     def braking(self, state: State) -> list[Braking]:
         """(2.89) −F₊ forward, F₋ backward; (2.90) by the slip."""
         if not (s := sign(state)):
@@ -233,7 +230,6 @@ class Sliding(Element):
 
         return [Braking(self.tangent, by_slip)]
 
-    @equation
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.89) F_s₊ − F_a and F_s₋ + F_a, F_a = −F_fr: negative where it breaks loose."""
         F_a = -forces[f"{self.name}.friction"]

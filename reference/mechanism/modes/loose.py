@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from ....cases.scene import Scene
-from ...coverage import equation
 from ...system import Array, Vector
 from ..constraints.constraint import Constraint
 from ..constraints.contact import Braking, Coulomb
@@ -75,7 +74,6 @@ class Loose(Multibody):
         )
         self.rank, self.margins = rank, margins
 
-    @equation
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) q̈ (n,), and of all multipliers (r,) that give it the least."""
         free = np.sqrt(self._M) * self.applied(t, q, v) / self._M
@@ -101,13 +99,11 @@ class Loose(Multibody):
         small = max(np.max(np.abs(gamma)), STILL * np.max(np.abs(free)))
         return bool(np.max(np.abs(gamma - rows @ held)) > APART * small)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15), (2.55) Of the rows as many as are independent."""
         rows = super().f_a(t, q)
         return rows[self._kept(rows)]
 
-    @equation
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) Their right sides."""
         return super().g(t, q)[self._kept(super().f_a(t, q))]
@@ -135,7 +131,6 @@ class Loose(Multibody):
             raise SingularPose(self.owners[-1])
         return of_columns.T[self.rank :] / sizes
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) Of all forces that the laws allow those that are farthest from breaking one."""
         return self.leeway(t, q, v).inmost.forces

@@ -11,7 +11,6 @@ import numpy as np
 from ....cases.scene import Scene
 from ....cases.scene.forces.drag import Drag
 from ....cases.scene.forces.force import of
-from ...coverage import equation
 from ...system import MOVING, TOGETHER, Array, Guard, System
 from ..constraints.constraint import Constraint, tracked
 from ..constraints.leeway import Leeway
@@ -270,7 +269,6 @@ class PlanarMechanism(Mechanism):
 
         return then
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.87), (2.89) F_N ≥ 0, |F_fr| ≤ μ_s F_N where it sticks, v as it slides, gap ≥ 0."""
         forces = self.built.forces(mode, t, q, v)

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from ....cases.scene import GROUND, Anchor
-from ...coverage import equation
 from ...system import Array, Mass, Mode, Pose, Vector
 from ..constraints.constraint import Constraint, residuals, row, tracked
 from ..constraints.constraint_solver import Holding
@@ -118,7 +117,6 @@ class Multibody(Mode):
         """The assembled start."""
         return self._start
 
-    @equation
     def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.5), (2.6) q̇ of the bodies; inner states have their own."""
         rates = self.where.rates(q, v)
@@ -129,17 +127,14 @@ class Multibody(Mode):
     def _inner_rates(self, t: Any, q: Vector, v: Vector) -> list[Any]:
         return self.ingredients.rate(t, q, v)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) M v̇ = Q + λ_b f_aᵇ with f_aᵇ v̇ᵃ = γᵇ, (n,)."""
         return self.solve(t, q, v)[0]
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ: the force of the first part on the second, by quantity."""
         return self.reactions_from(t, q, v, self.solve(t, q, v)[1].tolist())
 
-    @equation
     def reactions_from(
         self, t: float, q: Array, v: Array, multipliers: Sequence[float]
     ) -> dict[str, float]:
@@ -162,13 +157,11 @@ class Multibody(Mode):
                 found[f"{contact.name}.{way}"] = sum(each)
         return found
 
-    @equation
     def _exerted(self, t: float, q: Sequence[float], multipliers: Any) -> dict[str, float]:
         """(2.60) λ_b f_aᵇ of its own rows."""
         pairs = zip(self._rows.places.tolist(), multipliers, strict=True)
         return self.table.reactions(t, q, dict(pairs))
 
-    @equation
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) q̈ (n,) and the multipliers (r,), those of `held` last.
 
@@ -186,7 +179,6 @@ class Multibody(Mode):
             a, multipliers = a + held.pulled(change), multipliers + change
         return _at_rest(held, a, free, multipliers), multipliers
 
-    @equation
     def applied(self, t: float, q: Array, v: Array) -> Array:
         """(2.23), (2.60) Q: weights, forces and the friction of slides that move, (n,).
 
@@ -212,12 +204,10 @@ class Multibody(Mode):
         except Dependent as dependent:
             raise SingularPose(self.owners[dependent.row]) from dependent
 
-    @equation
     def rows(self, t: Any, q: Vector, v: Vector) -> tuple[Vector, Vector, Vector]:
         """(2.15) f_a (r, n) and g (r,), and γ (r,) of f_a v̇ᵃ = γ."""
         return self._rows(t, q, v)
 
-    @equation
     def forces(self, t: float, q: Array, v: Array) -> dict[str, Array]:
         """(2.50) The generalized force (n,) of each force element by itself, by name."""
         numbers = self.table.numbers(t, q, v)
@@ -243,7 +233,6 @@ class Multibody(Mode):
         each = [self._weight, *self.forces(t, q, v).values()]
         return np.max(np.nan_to_num(np.abs(each), nan=0.0), axis=0)
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves."""
         inner = {name: (q[place],) for name, place in self.where.inner.items()}
@@ -266,12 +255,10 @@ class Multibody(Mode):
 
     # The ingredients: the same mechanism from its energies and residuals alone.
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ Σ ω·J ω [J] of the rates q̇ (m,) or (m, K)."""
         return self.where.T(q, v)
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c + Σ ½ c (λ − λ₀)² [J]."""
         energy = self.ingredients.U(t, q)
@@ -284,12 +271,10 @@ class Multibody(Mode):
         """V = Σ ½ e B (y ẋ − x ẏ) [J] as (2.48) has it."""
         return self.ingredients.V(t, q, v)
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = Σ ½ d λ̇² [W], λ̇ = Δ·Δ̇/λ."""
         return 0.0 * v[0] + self.ingredients.D(t, q, v)
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q_a = Σ F·∂r/∂qᵃ of pushes, torques and dry friction, (n,)."""
         Q = self.ingredients.Q4(t, q, v)
@@ -301,17 +286,14 @@ class Multibody(Mode):
                 Q = Q + law.factor * multipliers[at] * row(law.tangent, t, q, v)[0]
         return Q
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.10), (2.14) the residuals of all that is holonomic, (≤ r,)."""
         return np.array(residuals(self.table, self._constraints, t, q.tolist()))
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15), (2.55) the rows f_aᵇ, (r, n)."""
         return self.rows(t, q, self._at_rest(q))[0]
 
-    @equation
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) the right side f_aᵇ q̇ᵃ = gᵇ of driven points, (r,)."""
         return self.rows(t, q, self._at_rest(q))[1]

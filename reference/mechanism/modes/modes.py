@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from ....cases.scene import Scene
-from ...coverage import equation
+from ...coverage import Numbered
 from ...system import MOVING, TOGETHER, Array
 from ..constraints.constraint import Constraint, row
 from ..constraints.leeway import Leeway
@@ -26,7 +26,7 @@ KEPT = (
 )
 
 
-class Modes(Mapping[str, Multibody]):
+class Modes(Numbered, Mapping[str, Multibody]):
     """The modes by name, built when they are first met."""
 
     def __init__(self, scene: Scene, start: tuple[Array, Array], located: float = TOGETHER) -> None:
@@ -110,7 +110,6 @@ class Modes(Mapping[str, Multibody]):
     def _pairs(self, states: tuple[State, ...]) -> list[tuple[Element, State]]:
         return list(zip(self.elements, states, strict=True))
 
-    @equation
     def margins(self, states: tuple[State, ...], forces: Mapping[str, float]) -> list[float]:
         """(2.87), (2.89) What forces leave [N, N m] until a contact opens or what sticks slips."""
         found: list[float] = []

@@ -8,12 +8,12 @@ share of each: the row of no slip holds once.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from ...coverage import equation
+from ...coverage import Numbered
 from .element import Element, State
 
 
 @dataclass(frozen=True)
-class Shared:
+class Shared(Numbered):
     """The sticking contacts of one body by name, with their coefficients of stiction.
 
     The first one's row holds; its multiplier is the sum of all their friction forces.
@@ -27,7 +27,6 @@ class Shared:
         """The reactions of which only the sum is determined."""
         return tuple(f"{name}.tangent" for name in self.contacts)
 
-    @equation
     def divided(self, forces: Mapping[str, float]) -> dict[str, float]:
         """(2.89) each takes a part as μ_s F_N, so that all break loose at one force [N]."""
         both = zip(self.contacts, self.static, strict=True)

@@ -52,7 +52,6 @@ class SmoothMultibody(Multibody):
             shared=shared, slack=slack, base=base,
         )  # fmt: skip
 
-    @equation
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
         a, multipliers = self._resting.solve(t, q, v)
@@ -78,7 +77,6 @@ class SmoothMultibody(Multibody):
         held = by_rows @ gamma
         return held + beside @ (a - held)
 
-    @equation
     def _friction(self, k: int) -> Callable[[float, Array, Array], float]:
         """(2.95) F_fr of the k-th slide; F_a is what would hold it at rest."""
 

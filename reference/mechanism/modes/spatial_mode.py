@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from ... import lapack
-from ...coverage import equation
 from ...system import Array, Pose, Vector
 from ..constraints.leeway import Leeway, leeway
 from ..forces.action import Gyroscopic
@@ -55,12 +54,10 @@ class SpatialMultibody(Multibody):
         q = np.append(q, begins)
         return np.append(q[: len(self.where.names)], self._angles(0.0, q))
 
-    @equation
     def _inner_rates(self, t: Any, q: Vector, v: Vector) -> list[Any]:
         """(2.5) φ̇ of what is counted."""
         return self._turned(t, q, v)
 
-    @equation
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) v̇ (n,) and the multipliers (r,)."""
         rows, _, gamma = self.rows(t, q, v)
@@ -81,7 +78,6 @@ class SpatialMultibody(Multibody):
             lambda forces: [forces[name] for name in floors],
         )
 
-    @equation
     def reactions_from(
         self, t: float, q: Array, v: Array, multipliers: Sequence[float]
     ) -> dict[str, float]:
@@ -98,7 +94,6 @@ class SpatialMultibody(Multibody):
                 found[name] = found.get(name, 0.0) + value
         return found
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves, quaternions with the length 1.
 

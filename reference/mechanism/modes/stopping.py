@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from ....cases.scene import Scene
 from ....cases.scene.forces.drag import Viscous
 from ....cases.scene.forces.force import of
-from ...coverage import equation
 from ..constraints.constraint import Constraint
 from ..constraints.contact import at_rest
 from ..kinematics.kinematics import Layout
@@ -41,7 +40,6 @@ class Stopping(Element):
     least: float
     room: float
 
-    @equation
     def slowing(self, speed: float) -> float:
         """(2.86) |v|^{1−α}, which falls evenly where v̇ = −(d/m) v^α: v has no slope there."""
         above = speed - self.least
@@ -55,7 +53,6 @@ class Stopping(Element):
         """Nothing, or no slip."""
         return [self.tangent] if state == "sticks" else []
 
-    @equation
     def margins(self, forces: Mapping[str, float]) -> tuple[float, float]:
         """(2.86) ∓F_a [N]: anything that pushes sets it off."""
         F_a = -forces[f"{self.name}.friction"]

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import EARLY, LAST, Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -30,47 +29,34 @@ class _Disk(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"wheel": Mass(self.m, self.m * self.R**2 / 2)})
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) ḧ = −g, 0 at rest [m/s²], (1,)."""
         return np.array([0.0 if self.rests else -G])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ = m g at rest, nothing in flight [N]: the floor's force on the wheel."""
         return {"touch.tangent": 0.0, "touch.normal": self.m * G if self.rests else 0.0}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ḣ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g (R + h) [J]."""
         return self.m * G * (self.R + q[0])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) h = 0 at rest [m]."""
         return np.array([q[0]]) if self.rests else np.zeros(0)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ḣ = 0 at rest: λ is the normal force."""
         return np.ones((1, 1)) if self.rests else np.zeros((0, 1))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (0, R + h)."""
         return {"wheel": (0.0, self.R + q[0], 0.0, 0.0, v[0], 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the centre."""
         return [Load("wheel", (0.0, self.R + float(q[0])), (0.0, -self.m * G))]
@@ -127,7 +113,6 @@ class BouncingDisk(System):
             flight *= self.e
         return [time for time in times if time <= until]
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.18) h = y₀ − R − ½ g t²; after the k-th impact h = v τ − ½ g τ², v = eᵏ g t₁."""
         falls = self._falls(t)

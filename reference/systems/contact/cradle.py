@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
-from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
+from ...system import Array, Guard, Load, Mass, Mode, Pose, System, Vector
 
 BODIES = ("left", "middle", "right")
 PAIRS = ("first", "second")
@@ -32,17 +31,14 @@ class _Free(Mode):
         masses = {name: Mass(m, m * self.R**2 / 2) for name, m in zip(BODIES, self.m, strict=True)}
         object.__setattr__(self, "masses", masses)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.23) ẍ = 0 [m/s²], (3,)."""
         return np.zeros(3)
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ Σ m ẋ² [J]."""
         return sum(m * x**2 for m, x in zip(self.m, v, strict=True)) / 2
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k = (x_k, 0)."""
         pairs = zip(BODIES, q, v, strict=True)
@@ -50,10 +46,6 @@ class _Free(Mode):
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """Nothing acts."""
-        return []
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """None: each moves alone."""
         return []
 
 
@@ -95,7 +87,6 @@ class Cradle(System):
     def _then(self, k: int) -> Callable[[float, Array, Array], tuple[str, Array, Array]]:
         return lambda t, q, v: ("free", q, self._struck(k, v))
 
-    @equation
     def _struck(self, k: int, v: Array) -> Array:
         """(2.23) over the instant: u = (m v + m' v')/(m + m') stays, and v' − v turns by −e."""
         m, n = (self.m1, self.m2, self.m3)[k : k + 2]

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -37,7 +36,6 @@ class _Disks(Mode):
         object.__setattr__(self, "masses", masses)
 
     @property
-    @equation
     def _J(self) -> float:
         """(2.32) J₃₃ = m r²/2 [kg m²]."""
         return self.m * self.r**2 / 2
@@ -46,7 +44,6 @@ class _Disks(Mode):
     def _J_D(self) -> float:
         return self.M * self.R**2 / 2
 
-    @equation
     def normal(self, q: Array, v: Array) -> float:
         """(2.23) N = m (g sin θ − ρ θ̇²) [N], ρ being R + r; nothing in flight."""
         return 0.0 if self.flies else self.m * float(G * np.sin(q[1]) - q[0] * v[1] ** 2)
@@ -57,7 +54,6 @@ class _Disks(Mode):
             return -self.sigma * self.mu * self.normal(q, v)
         return -G * math.cos(q[1]) / (3 / self.m + 2 / self.M)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.23) m (ρ̈ − ρ θ̇²) = N − m g sin θ, m (ρ θ̈ + 2 ρ̇ θ̇) = −F − m g cos θ; (2.34)
         J φ̈ = r F, J_D ψ̈ = R F [m/s², rad/s²], (4,).
@@ -68,7 +64,6 @@ class _Disks(Mode):
         around = -F / self.m - G * math.cos(theta) - 2 * rho_dot * theta_dot
         return np.array([outwards, around / rho, self.r * F / self._J, self.R * F / self._J_D])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) N and F, and what carries the drum: its weight, N and F [N]."""
         N, F = self.normal(q, v), self.friction(q, v)
@@ -78,18 +73,15 @@ class _Disks(Mode):
             "axle.fx": N * cos + F * sin, "axle.fy": self.M * G + N * sin - F * cos,
         }  # fmt: skip
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (ρ̇² + ρ² θ̇²) + ½ J φ̇² + ½ J_D ψ̇² [J]."""
         moves = self.m * (v[0] ** 2 + q[0] ** 2 * v[1] ** 2)
         return (moves + self._J * v[2] ** 2 + self._J_D * v[3] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g ρ sin θ [J]."""
         return self.m * G * q[0] * np.sin(q[1])
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = F (0, −ρ, r, R) of the friction that slides: it does the power F · slip."""
         if self.flies or not self.sigma:
@@ -97,12 +89,10 @@ class _Disks(Mode):
         F = -self.sigma * self.mu * self.m * (G * np.sin(q[1]) - q[0] * v[1] ** 2)
         return np.array([0.0 * F, -q[0] * F, self.r * F, self.R * F])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) ρ = R + r in contact [m]."""
         return np.zeros(0) if self.flies else np.array([q[0] - self.R - self.r])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ρ̇ = 0, and −ρ θ̇ + r φ̇ + R ψ̇ = 0 where it rolls: λ are N and F."""
         if self.flies:
@@ -111,12 +101,6 @@ class _Disks(Mode):
         rows = [[one, none, none, none]]
         return np.array(rows if self.sigma else [*rows, [none, -q[0], self.r, self.R]])
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = 0, R₂ = ρ e_ρ."""
         cos, sin = np.cos(q[1]), np.sin(q[1])
@@ -126,7 +110,6 @@ class _Disks(Mode):
             "wheel": (q[0] * cos, q[0] * sin, q[2], x_dot, y_dot, v[2]),
         }
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights, and the friction that slides where both touch."""
         rho, cos, sin = float(q[0]), math.cos(q[1]), math.sin(q[1])
@@ -199,13 +182,11 @@ class DiskOnDisk(System):
     def _push(self, t: float, q: Array, v: Array) -> float:
         return self._disks("rolls").normal(q, v)
 
-    @equation
     def _margin(self, t: float, q: Array, v: Array) -> float:
         """(2.89) μ N − |F| of rolling [N]."""
         rolls = self._disks("rolls")
         return self.mu * rolls.normal(q, v) - abs(rolls.friction(q, v))
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F| ≤ μ N where it rolls, N ≥ 0, ρ ≥ R + r in flight; slipping downhill."""
         disks = self._disks(mode)

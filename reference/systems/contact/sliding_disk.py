@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -32,12 +31,10 @@ class _Disk(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"wheel": Mass(self.m, self._J33())})
 
-    @equation
     def _J33(self) -> float:
         """(2.32) J₃₃ = m R²/2 [kg m²]."""
         return self.m * self.R**2 / 2
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.87), (2.34) ẍ_c = g (sin β − σ μ cos β), R φ̈ = 2 σ μ g cos β; rolling R φ̈ = ⅔ g sin β.
 
@@ -48,7 +45,6 @@ class _Disk(Mode):
             return np.array([2 / 3 * along, 0.0, 2 / 3 * along / self.R])
         return np.array([along - friction, 0.0, 2 * friction / self.R])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.87) F_N = m g cos β, F_fr = −σ μ F_N; rolling: −⅓ m g sin β [N]: on the wheel."""
         weight = self.m * G
@@ -56,44 +52,32 @@ class _Disk(Mode):
         tangent = -self.sigma * self.mu * F_N if self.sigma else rolling
         return {"touch.tangent": tangent, "touch.normal": F_N}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (ẋ_c² + ẏ_c²) + ½ J₃₃ φ̇² [J]."""
         return self.m * (v[0] ** 2 + v[1] ** 2) / 2 + self._J33() * v[2] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g (y_c cos β − x_c sin β) [J]."""
         return self.m * G * (q[1] * math.cos(self.beta) - q[0] * math.sin(self.beta))
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = (F_fr, 0, −R F_fr), F_fr = −σ μ m g cos β of sliding [N, N, N m]."""
         F_fr = -self.sigma * self.mu * self.m * G * math.cos(self.beta)
         return np.array([F_fr, 0.0, -self.R * F_fr])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.18) y_c − R = 0 [m]."""
         return np.array([q[1] - self.R])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.17) ẏ_c = 0, and rolling: ẋ_c − R φ̇ = 0: λ are the normal and the friction force."""
+        """(2.15), (2.17) ẏ_c = 0, and rolling ẋ_c − R φ̇ = 0: λ are normal force and friction."""
         rows = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, -self.R]])
         return rows[:1] if self.sigma else rows
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x_c, y_c), angle = −φ."""
         return {"wheel": (q[0], q[1], -q[2], v[0], v[1], -v[2])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight in the axes of the slope; the friction of sliding where it touches."""
         x, y = q[:2].tolist()
@@ -141,19 +125,16 @@ class SlidingDisk(System):
         )
         return mode, q, v
 
-    @equation
     def slip(self, v: Array) -> float:
         """(2.16) ẋ_c − R φ̇ [m/s]: the velocity of the point that touches."""
         return float(v[0] - self.R * v[2])
 
-    @equation
     def _without_slip(self) -> str:
         """(2.89) without slip it rolls if |tan β| ≤ 3 μ, else it slips down the slope."""
         if abs(math.sin(self.beta)) <= 3 * self.mu * math.cos(self.beta):
             return "rolling"
         return "slips forward" if self.beta > 0.0 else "slips backward"
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `rolls` where the slip ends; too steep for that, the slip turns."""
         if mode == "rolling":
@@ -166,7 +147,6 @@ class SlidingDisk(System):
         event = "rolls" if after == "rolling" else None
         return (Guard(event, lambda t, q, v: sigma * self.slip(v), then),)
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.87) x_c = −v₀ t + ½ a t², R φ = R w₀ t + ½ b t² while it slips, and so on.
 
@@ -186,13 +166,11 @@ class SlidingDisk(System):
                 turned, w = turned + w * tau + b * tau**2 / 2, w + b * tau
         return np.array([x, self.R, turned / self.R]), np.array([u, 0.0, w / self.R])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.87) rolls at t₁, if it slips before and can."""
         t1 = self._ends()
         return [("rolls", t1)] if 0.0 < t1 <= until and self._after() == 0.0 else []
 
-    @equation
     def _ends(self) -> float:
         """(2.87) No slip at t₁ = |s₀|/(g (3 μ cos β ∓ sin β)) [s], − where it is forward, or never.
 
@@ -205,13 +183,11 @@ class SlidingDisk(System):
         brake = G * (3 * self.mu * math.cos(self.beta) - down)
         return abs(slip) / brake if brake > 0.0 else math.inf
 
-    @equation
     def _after(self) -> float:
         """(2.89) σ after the slip: 0, it rolls, if |tan β| ≤ 3 μ, else down the slope."""
         rolls = abs(math.tan(self.beta)) <= 3 * self.mu
         return 0.0 if rolls else math.copysign(1.0, self.beta)
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.87) |F_fr| ≤ μ F_N where it rolls, F_N > 0."""
         forces = self.modes[mode].reactions(t, q, v)

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 from ..quadrature import integral
 
@@ -33,12 +32,10 @@ class _Ladder(Mode):
         object.__setattr__(self, "masses", {"rod": Mass(self.m, self._J)})
 
     @property
-    @equation
     def _J(self) -> float:
         """(2.32) J₃₃ = m l²/12 [kg m²]."""
         return self.m * self.l**2 / 12
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) (J + m a²) φ̈ = −m g a cos φ, x = a cos φ; alone ẍ = 0 and
         (J + m a² cos² φ) φ̈ = m a² φ̇² cos φ sin φ − m g a cos φ [m/s², rad/s²], (2,).
@@ -50,46 +47,34 @@ class _Ladder(Mode):
         torque = self.m * a * cos * (a * v[1] ** 2 * sin - G)
         return np.array([0.0, torque / (self._J + self.m * (a * cos) ** 2)])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) N_foot = m (g + ÿ), y = a sin φ; N_top = m ẍ [N]."""
         along, turning = self.accelerations(t, q, v)
         rising = self.l / 2 * (math.cos(q[1]) * turning - math.sin(q[1]) * v[1] ** 2)
         return {"foot.normal": self.m * (G + rising), "top.normal": self.m * along}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (ẋ² + a² φ̇² cos² φ) + ½ J φ̇² [J]."""
         up = self.l / 2 * np.cos(q[1]) * v[1]
         return (self.m * (v[0] ** 2 + up**2) + self._J * v[1] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g a sin φ [J]."""
         return self.m * G * self.l / 2 * np.sin(q[1])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) x − a cos φ = 0 where it leans: the upper end is at the wall [m]."""
         return np.array([q[0] - self.l / 2 * np.cos(q[1])]) if self.leans else np.zeros(0)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ + a φ̇ sin φ = 0 where it leans: λ is the wall's force."""
         return np.array([[1.0, self.l / 2 * np.sin(q[1])]]) if self.leans else np.zeros((0, 2))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the wall does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, a sin φ), turned clockwise by φ: the bar starts at the wall."""
         a = self.l / 2
         return {"rod": (q[0], a * np.sin(q[1]), -q[1], v[0], a * np.cos(q[1]) * v[1], -v[1])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the middle."""
         middle = (float(q[0]), self.l / 2 * math.sin(q[1]))
@@ -128,7 +113,6 @@ class SlidingLadder(System):
         push = lambda t, q, v: self.modes["leans"].reactions(t, q, v)["top.normal"]  # noqa: E731
         return (Guard("top opens", push, lambda t, q, v: ("slides", q, v)),)
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.51) φ̇² = 3 g (sin φ₀ − sin φ)/l gives N_top = 0 at sin φ = ⅔ sin φ₀.
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -47,13 +46,11 @@ class _Blocks(Mode):
         shared = [name for s, two in zip(self.s, corners, strict=True) if not s for name in two]
         object.__setattr__(self, "undetermined", tuple(f"{name}.tangent" for name in shared))
 
-    @equation
     def _sliding(self) -> tuple[float, float]:
         """(2.87) F₁ = −μ₁ (m₁ + m₂) g and F₂ = −μ₂ m₂ g against the slips, 0 where it sticks."""
         F1 = -self.s[0] * self.mu1 * (self.m1 + self.m2) * G
         return F1, -self.s[1] * self.mu2 * self.m2 * G
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.23) m₁ ẍ₁ = b t + F₁ − F₂, m₂ ẍ₂ = F₂; both (m₁ + m₂) ẍ = b t + F₁ [m/s²], (2,)."""
         F1, F2 = self._sliding()
@@ -70,7 +67,6 @@ class _Blocks(Mode):
         F2 = F2 if self.s[1] else self.m2 * a2
         return F1 if self.s[0] else self.m1 * a1 - self.b * t + F2, F2
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.27) N_l − N_r = F₂ h₂/w₂ above; on the floor the moment of all that acts on top of the
         lower block too, ½ w₁ (N_l − N_r) = ½ h₁ (F₁ + F₂) + ½ h₂ F₂ − m₂ g (x₂ − x₁) [N].
@@ -87,29 +83,20 @@ class _Blocks(Mode):
         sticks = {"floor.tangent": F1} if self.s[0] == 0 else {}
         return found | sticks | ({"upper.tangent": F2} if self.s[1] == 0 else {})
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m₁ ẋ₁² + ½ m₂ ẋ₂² [J]."""
         return (self.m1 * v[0] ** 2 + self.m2 * v[1] ** 2) / 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = (b t + F₁ − F₂, F₂) of the friction that slides [N]."""
         F1, F2 = self._sliding()
         return np.array([self.b * t + F1 - F2, F2 + 0.0 * t])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ₁ = 0 and ẋ₂ − ẋ₁ = 0, each where it sticks: λ is the friction."""
         rows = [[1.0, 0.0]] if self.s[0] == 0 else []
         return np.array([*rows, *([[-1.0, 1.0]] if self.s[1] == 0 else [])]).reshape(-1, 2)
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x₁, h₁/2), R₂ = (x₂, h₁ + h₂/2)."""
         return {
@@ -117,7 +104,6 @@ class _Blocks(Mode):
             "upper": (q[1], self.h1 + self.h2 / 2, 0.0, v[1], 0.0, 0.0),
         }
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights and push at the middles, and the friction that slides where it does."""
         (x1, x2), (F1, F2) = map(float, q), self._sliding()
@@ -193,7 +179,6 @@ class StackedBlocks(System):
             return (Guard("joins", lambda t, q, v: float(v[1] - v[0]), then),)
         return ()
 
-    @equation
     def _margin(self, t: float, q: Array, v: Array) -> float:
         """(2.89) μ₂ m₂ g − F₂ [N]."""
         together = self.modes["together"]
@@ -205,7 +190,6 @@ class StackedBlocks(System):
         u = (self.m1 * v[0] + self.m2 * v[1]) / (self.m1 + self.m2)
         return "together", q, np.array([u, u])
 
-    @equation
     def _phases(self) -> list[tuple[float, str, tuple[float, ...]]]:
         """(2.89) When each mode begins, by which event; ẍ₁, ẍ₂ and their slopes from then on.
 
@@ -240,7 +224,6 @@ class StackedBlocks(System):
         """The beginnings of its phases."""
         return [(name, t) for t, name, _ in self._phases()[1:] if t <= until]
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F| ≤ μ N where it sticks, all corners pressed, one block on the other."""
         blocks = self.modes[mode]

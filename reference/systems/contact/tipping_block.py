@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -35,7 +34,6 @@ class _Block(Mode):
             object.__setattr__(self, "undetermined", ("left.tangent", "right.tangent"))
 
     @property
-    @equation
     def _J(self) -> float:
         """(2.32) J₃₃ = m (w² + H²)/12 [kg m²]."""
         return self.m * (self.w**2 + self.H**2) / 12
@@ -50,7 +48,6 @@ class _Block(Mode):
         d = math.hypot(self.w, self.H) / 2
         return d * np.cos(alpha), d * np.sin(alpha)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34) ⅓ m (w² + H²) α̈ = b t 2 y − m g a, a behind and y above the corner [rad/s²], (1,);
         α̈ = 0 where it stands.
@@ -61,7 +58,6 @@ class _Block(Mode):
         torque = 2 * self.b * t * high - self.m * G * behind
         return np.array([3 * torque / (self.m * (self.w**2 + self.H**2))])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) N_left = ½ m g − b t H/w and the rest in front; tipping N = m (g + ÿ),
         T = m ẍ − b t [N].
@@ -76,46 +72,34 @@ class _Block(Mode):
         normal, tangent = self.m * (G + up), self.m * along - self.b * t
         return {"left.normal": 0.0, "right.normal": normal, "right.tangent": tangent}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ (J + ¼ m (w² + H²)) α̇² [J]."""
         return (self._J + self.m * (self.w**2 + self.H**2) / 4) * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g y [J]."""
         return self.m * G * self._arm(q[0])[1]
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = b t 2 y: the corner that is pushed is twice as high as the middle [N m]."""
         return np.array([2 * self.b * t * self._arm(q[0])[1]])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) w sin(α − α₀) = 0 where it stands: the other corner is on the floor [m]."""
         return np.array([self.w * np.sin(q[0] - self._alpha0)]) if self.stands else np.zeros(0)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) w α̇ cos(α − α₀) = 0 where it stands: λ is the force on the other corner."""
         if not self.stands:
             return np.zeros((0, 1))
         return np.array([[self.w * np.cos(q[0] - self._alpha0)]])
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (w/2 − a, y), angle α₀ − α: at first the middle of the bottom is at 0."""
         behind, high = self._arm(q[0])
         turned = self._alpha0 - q[0]
         return {"box": (self.w / 2 - behind, high, turned, high * v[0], behind * v[0], -v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the middle, push at the upper corner behind."""
         behind, high = map(float, self._arm(float(q[0])))
@@ -166,13 +150,11 @@ class TippingBlock(System):
         push = lambda t, q, v: self.modes["stands"].reactions(t, q, v)["left.normal"]  # noqa: E731
         return (Guard("tips", push, lambda t, q, v: ("tips", q, v)),)
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.23) b t H = ½ m g w."""
         time = self.m * G * self.w / (2 * self.b * self.H)
         return [("tips", time)] if time <= until else []
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |T| ≤ μ N, N > 0, and not yet on its side."""
         if q[0] >= math.atan2(self.H, self.w) + math.pi / 2:

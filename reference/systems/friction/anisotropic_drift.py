@@ -9,28 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ...system import Vector
 from .block_on_guide import BlockOnGuide
 from .stick_slip import Pull
 
 
 @dataclass(frozen=True)
-class _Shake:
+class _Shake(Numbered):
     A: float
     w: float
 
-    @equation
     def F_a(self, t: float, x: float) -> float:
         """(2.88) F_a = A sin ωt [N]."""
         return self.A * math.sin(self.w * t)
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) nothing has a potential."""
         return 0.0
 
-    @equation
     def Q4(self, t: Any) -> Any:
         """(2.50) Q = A sin ωt [N]."""
         return self.A * np.sin(self.w * t)

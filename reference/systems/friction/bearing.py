@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -32,7 +31,6 @@ class _Rotor(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"disk": Mass(self.m, self.m * self.R**2 / 2)})
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34) J₃₃ φ̈ = M + k t − M_k − d φ̇ [N m]; φ̈ = 0 where it sticks, (1,) [rad/s²]."""
         if self.M_k is None:
@@ -40,44 +38,32 @@ class _Rotor(Mode):
         moment = self.M + self.k * t - self.M_k - self.d * v[0]
         return np.array([2 * moment / (self.m * self.R**2)])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) the axle holds the weight; (2.89) M_fr = −M_k, −(M + k t) where it sticks."""
         friction = -(self.M + self.k * t) if self.M_k is None else -self.M_k
         return {"axle.fx": 0.0, "axle.fy": self.m * G, "axle.friction": friction}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ J₃₃ φ̇² [J]."""
         return self.m * self.R**2 / 4 * v[0] ** 2
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = ½ d φ̇² [W]."""
         return self.d * v[0] ** 2 / 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = M + k t − M_k: the drive, and the dry friction of turning [N m], (1,)."""
         return np.array([self.M + self.k * t - (self.M_k or 0.0)])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) φ̇ = 0 where it sticks: λ is the moment of friction."""
         return np.ones((1, 1)) if self.M_k is None else np.zeros((0, 1))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the axle does not turn."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) the centre stays at the axle, angle = φ."""
         still = 0.0 * q[0]
         return {"disk": (still, still, q[0], still, still, v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, the drive, and the moments of friction but that of rest."""
         at = (0.0, 0.0)
@@ -128,7 +114,6 @@ class Bearing(System):
         turns = self.w0 > 0.0 or self.M_s < self.M
         return "turns" if turns else "sticks", np.zeros(1), np.array([self.w0])
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `stops` where φ̇ = 0, `slips` where M + k t comes to M_s."""
         if mode == "turns":
@@ -137,7 +122,6 @@ class Bearing(System):
         loose = lambda t, q, v: ("turns", q, v)  # noqa: E731
         return (Guard("slips", lambda t, q, v: self.M_s - (self.M + self.k * t), loose),)
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |M_fr| ≤ M_s where it sticks."""
         holds = -self.modes[mode].reactions(t, q, v)["axle.friction"]
@@ -145,7 +129,6 @@ class Bearing(System):
             return f"sticking against {holds:.6g} N m, there is {self.M_s:.6g}"
         return None
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.34) ω = c + (ω₀ − c) e^{−t/T}, T = J/d, c = (M − M_k)/d; ω₀ + (M − M_k) t/J if d = 0.
 
@@ -168,7 +151,6 @@ class Bearing(System):
             angle = left * T * fades + (c - ramp * T) * tau + ramp * tau**2 / 2
         return np.array([angle]), np.array([rate if t < self._halts() else 0.0])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
         """(2.34) stops at T ln(1 + d ω₀/(M_k − M)), or J ω₀/(M_k − M); slips at (M_s − M)/k."""
         if self.k and self.w0:

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.friction import Dry
 from ...system import Array, Guard, System
 from .stick_slip import Pull, guards, modes, possible
@@ -36,12 +35,10 @@ class BlockOnGuide(System):
         """At rest at x = 0; a spring has no force there."""
         return "stuck", np.zeros(1), np.zeros(1)
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `slips` and `stops`."""
         return guards(self.pull, self.dry, mode)
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_a within the static friction where it sticks."""
         return possible(self.modes[mode], self.dry, t, q, v) if mode == "stuck" else None

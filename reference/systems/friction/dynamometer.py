@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array
 from .block_on_guide import BlockOnGuide
 from .stick_slip import Drawn, Pull
@@ -38,12 +37,10 @@ class Dynamometer(BlockOnGuide):
         """The forces on the block but friction."""
         return Drawn(self.c, self.u)
 
-    @equation
     def spring(self, t: float, q: Array) -> tuple[float, float]:
         """(2.82) x₀ = u t [m] and the force c (x₀ − x₁) [N]: the two axes of fig 2.24."""
         return self.u * t, self.c * (self.u * t - float(q[0]))
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.98) x₁ = u t − (F₊ + c z)/c while it slips, z = z₀ cos ωτ + (u/ω) sin ωτ.
 
@@ -64,7 +61,6 @@ class Dynamometer(BlockOnGuide):
                 return np.array([x]), np.array([v])
         return np.array([x]), np.zeros(1)
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
         """(2.98) v = 0 at ωτ = 2π − 2 atan(z₀ ω/u), with the spring's force 2 F₊ − F_s₊ left."""
         if not self._sticks_again():

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Guard, System
 from .slope import Block, impossible
 
@@ -46,7 +45,6 @@ class FrictionCone(System):
         """At rest at x = 0."""
         return "sticks", np.zeros(1), np.zeros(1)
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `slips` where |F_a| comes to μ_s F_N; what slides is drawn on."""
         if mode != "sticks":
@@ -61,12 +59,10 @@ class FrictionCone(System):
             Guard("slips", lambda t, q, v: left(-1.0, t), lambda t, q, v: ("up", q, v)),
         )
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_N > 0, and |F_fr| ≤ μ_s F_N where it sticks."""
         return impossible(self.modes[mode].reactions(t, q, v), self.mu_s, mode)
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.87) m x = ½ σ (μ_s − μ_k) F_N τ² + ⅙ (b_x + σ μ_k b_y) τ³, τ = t − t₀, F_N at t₀."""
         t0, sigma = self._slips(), math.copysign(1.0, self.b_x)
@@ -77,12 +73,10 @@ class FrictionCone(System):
         x, v = jump * tau**2 / 2 + grows * tau**3 / 6, jump * tau + grows * tau**2 / 2
         return np.array([x]), np.array([v])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.89) slips at t₀, for good."""
         return [("slips", self._slips())] if self._slips() <= until else []
 
-    @equation
     def _slips(self) -> float:
         """(2.89) t₀ = m g sin (ρ ∓ β)/(b cos (γ − ρ)) [s], − down the slope; γ is the pull's."""
         rho, pull = math.atan(self.mu_s), math.hypot(self.b_x, self.b_y)

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ...coverage import equation
 from ...system import Array, Guard, System
 from .dynamometer import Dynamometer
 from .stick_slip import modes, possible
@@ -33,7 +32,6 @@ class FrictionOfRest(System):
         object.__setattr__(self, "modes", found)
 
     @cached_property
-    @equation
     def drawn(self) -> Dynamometer:
         """(2.87) The same with F = μ F_N, F_N = m g [N]."""
         F, Fs = (mu * self.m * G for mu in (self.mu_k, self.mu_s))
@@ -43,22 +41,18 @@ class FrictionOfRest(System):
         """At rest, the spring without force."""
         return self.drawn.start()
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `slips` and `stops`."""
         return self.drawn.guards(mode)
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_a within the static friction where it sticks."""
         return possible(self.modes[mode], self.drawn.dry, t, q, v) if mode == "stuck" else None
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.98) of the dynamometer with these forces of friction."""
         return self.drawn.closed_form(t)
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
         """(2.98) slips at μ_s m g/(c u), and after every rest."""
         return self.drawn.closed_events(until)

@@ -8,27 +8,24 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ...system import Array, Vector
 from .block_on_guide import BlockOnGuide
 from .stick_slip import Pull
 
 
 @dataclass(frozen=True)
-class _Ramp:
+class _Ramp(Numbered):
     b: float
 
-    @equation
     def F_a(self, t: float, x: float) -> float:
         """(2.97) F_a = −b t [N]."""
         return -self.b * t
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) nothing has a potential."""
         return 0.0
 
-    @equation
     def Q4(self, t: Any) -> Any:
         """(2.50) Q = −b t [N]."""
         return -self.b * t
@@ -59,7 +56,6 @@ class GrowingForce(BlockOnGuide):
         """The forces on the block but friction."""
         return _Ramp(self.b)
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.97) m v = −½ b (t² − t_s²) + F₋ (t − t_s), b t_s = F_s₋, and its integral m x.
 
@@ -70,7 +66,6 @@ class GrowingForce(BlockOnGuide):
         x = (drop * tau**2 / 2 - self.b * tau**3 / 6) / self.m
         return np.array([x]), np.array([(drop * tau - self.b * tau**2 / 2) / self.m])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.97) slips at t_s = F_s₋/b, for good."""
         t_s = self.Fs_minus / self.b

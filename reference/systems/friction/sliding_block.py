@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Guard, System
 from .slope import Block, impossible
 
@@ -38,14 +37,12 @@ class SlidingBlock(System):
         mode = self._at_rest() if self.v0 == 0.0 else "down" if self.v0 > 0.0 else "up"
         return mode, np.zeros(1), np.array([self.v0])
 
-    @equation
     def _at_rest(self) -> str:
         """(2.89) at v = 0 it sticks while |tan β| ≤ μ_s, else it slides down."""
         if abs(math.sin(self.beta)) <= self.mu_s * math.cos(self.beta):
             return "sticks"
         return "down" if self.beta > 0.0 else "up"
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.89) `stops` where v = 0; too steep for that, it turns."""
         if mode == "sticks":
@@ -59,7 +56,6 @@ class SlidingBlock(System):
             ),
         )
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.87) x = v₀ t + ½ g (sin β ∓ μ_k cos β) t² until v = 0, − where it goes down.
 
@@ -73,13 +69,11 @@ class SlidingBlock(System):
         tau = t - t0
         return np.array([self.v0 * t0 / 2 + a * tau**2 / 2]), np.array([a * tau])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.87) stops at t₀, if it moves before and does not set off again."""
         t0 = self._halts()
         return [("stops", t0)] if 0.0 < t0 <= until and self._sets_off() == 0.0 else []
 
-    @equation
     def _halts(self) -> float:
         """(2.87) v = 0 at t₀ = |v₀|/(g (μ_k cos β ∓ sin β)) [s], − where it goes down, or never."""
         if self.v0 == 0.0:
@@ -88,14 +82,12 @@ class SlidingBlock(System):
         brake = G * (self.mu_k * math.cos(self.beta) - down)
         return abs(self.v0) / brake if brake > 0.0 else math.inf
 
-    @equation
     def _sets_off(self) -> float:
         """(2.87) a = g (sin β ∓ μ_k cos β) [m/s²] from rest, − where it goes down; 0: it sticks."""
         if abs(math.tan(self.beta)) <= self.mu_s:
             return 0.0
         return G * (math.sin(self.beta) - math.copysign(self.mu_k, self.beta) * math.cos(self.beta))
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_N > 0, and |F_fr| ≤ μ_s F_N where it sticks."""
         return impossible(self.modes[mode].reactions(t, q, v), self.mu_s, mode)

@@ -32,61 +32,46 @@ class Block(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
 
-    @equation
     def F_a(self, t: Any) -> Any:
         """(2.88) F_a = m g sin β + b_x t [N]."""
         return self.m * G * math.sin(self.beta) + self.b_x * t
 
-    @equation
     def F_N(self, t: Any) -> Any:
         """(2.23) F_N = m g cos β − b_y t [N], from ÿ = 0."""
         return self.m * G * math.cos(self.beta) - self.b_y * t
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.87), (2.88) m ẍ = F_a − σ μ_k F_N; ẍ = 0 where it sticks [m/s²], (1,)."""
         if self.sigma == 0:
             return np.zeros(1)
         return np.array([(self.F_a(t) - self.sigma * self.mu_k * self.F_N(t)) / self.m])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.89) F_fr = −σ μ_k F_N, −F_a where it sticks [N]; and F_N."""
         F_N = self.F_N(t)
         F_fr = -self.sigma * self.mu_k * F_N if self.sigma else -self.F_a(t)
         return {"touch.tangent": F_fr, "touch.normal": F_N}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −m g x sin β [J]."""
         return -self.m * G * q[0] * math.sin(self.beta)
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = b_x t − σ μ_k F_N: the pull, and the friction of sliding [N], (1,)."""
         return np.array([self.b_x * t - self.sigma * self.mu_k * self.F_N(t)])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
         return np.zeros((0, 1)) if self.sigma else np.ones((1, 1))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, 0)."""
         return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight in the axes of the slope, the pull, and the friction of sliding."""
         at, weight = (float(q[0]), 0.0), self.m * G

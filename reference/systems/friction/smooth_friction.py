@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.friction import Dry, smooth
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
@@ -51,7 +50,6 @@ class _Block(Mode):
         """At rest at x = 0."""
         return np.zeros(1), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.95) m v̇ = F_a (p + n + h (P + N)) + F₋ (p + h P) − F₊ (n + h N) [m/s²], (1,).
 
@@ -72,32 +70,26 @@ class _Block(Mode):
         """½ (1 − tanh A(x + below)), ½ (1 + tanh A(x − above)): how far x is out of its band."""
         return _half(self.A * (x + below)), _half(self.A * (above - x))
 
-    @equation
     def _friction(self, t: float, x: float, x_dot: float) -> float:
         """(2.95) F_fr [N]."""
         return float(smooth(self.dry, self.Delta, self.A, x_dot, self.r * t - self.c * x))
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.95) the guide's force on the block [N]."""
         return {"guide.fx": self._friction(t, float(q[0]), float(v[0])), "guide.fy": 0.0}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c x² [J]; what the time brings is in Q."""
         return self.c * q[0] ** 2 / 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = r t + F_fr [N], (1,)."""
         return np.array([self.r * t + self._friction(t, float(q[0]), float(v[0]))])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, 0)."""
         return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
@@ -129,7 +121,6 @@ class SmoothGrowingForce(_Block):
     c = 0.0
 
     @property
-    @equation
     def r(self) -> float:
         """(2.97) F_a = −b t."""
         return -self.b
@@ -150,7 +141,6 @@ class SmoothDynamometer(_Block):
     A: float
 
     @property
-    @equation
     def r(self) -> float:
         """(2.98) F_a = c (u t − x)."""
         return self.c * self.u

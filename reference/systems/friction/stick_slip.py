@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered, equation
 from ...laws.friction import Dry
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, Vector
 
@@ -33,28 +33,24 @@ class Pull(Protocol):
 
 
 @dataclass(frozen=True)
-class Drawn:
+class Drawn(Numbered):
     """By a spring c [N/m] whose end moves with u [m/s]."""
 
     c: float
     u: float
 
-    @equation
     def F_a(self, t: float, x: float) -> float:
         """(2.98) F_a = −c x + c u t [N]."""
         return -self.c * x + self.c * self.u * t
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c (x₀ − x₁)² [J]."""
         return self.c * (self.u * t - q[0]) ** 2 / 2
 
-    @equation
     def Q4(self, t: Any) -> Any:
         """(2.50) nothing else [N]."""
         return 0.0
 
-    @equation
     def forces(self, t: float, x: float) -> list[float]:
         """(2.82) the spring alone [N]."""
         return [self.c * (self.u * t - x)]
@@ -80,7 +76,6 @@ class Line(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
 
-    @equation
     def _slides(self, v: Any) -> Any:
         """(2.90) F_fr = ∓(F + (F_s − F) e^{∓v/v_s}) [N]; 0 where it sticks."""
         if self.falls is None:
@@ -88,46 +83,34 @@ class Line(Mode):
         more, v_s = self.falls
         return self.F_fr + more * np.exp(math.copysign(1.0, more) * v / v_s)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.88) m v̇ = F_a + F_fr; v̇ = 0 where it sticks [m/s²], (1,)."""
         if self.F_fr is None:
             return np.zeros(1)
         return np.array([(self.pull.F_a(t, float(q[0])) + self._slides(v[0])) / self.m])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.89) F_fr, −F_a where it sticks [N], and what carries the block."""
         stuck = self.F_fr is None
         F_fr = -self.pull.F_a(t, float(q[0])) if stuck else float(self._slides(v[0]))
         return dict(zip(self.names, (F_fr, self.N), strict=True))
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) of the pull [J]."""
         return self.pull.U(t, q)
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) of the pull and the friction of sliding [N], (1,)."""
         return np.array([self.pull.Q4(t) + self._slides(v[0])])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ = 0 where it sticks: λ is the friction force."""
         return np.ones((1, 1)) if self.F_fr is None else np.zeros((0, 1))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the guide does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, 0)."""
         return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ...laws.friction import Dry
 from ...system import Array, Guard, System, Vector
 from ..quadrature import integral
@@ -21,20 +21,17 @@ PANELS = 16  # of the integral: ln E is smooth up to the stop
 
 
 @dataclass(frozen=True)
-class _Push:
+class _Push(Numbered):
     P: float
 
-    @equation
     def F_a(self, t: float, x: float) -> float:
         """(2.88) F_a = P [N]."""
         return self.P
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) nothing has a potential."""
         return 0.0
 
-    @equation
     def Q4(self, t: Any) -> Any:
         """(2.50) Q = P [N]."""
         return self.P
@@ -70,17 +67,14 @@ class StribeckBrake(System):
         """At x = 0 with v0."""
         return "forward", np.zeros(1), np.array([self.v0])
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.90) `stops`: at v = 0 as (2.89)."""
         return guards(self._pull(), self._dry(), mode)
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.90) F_a within the static friction where it sticks."""
         return possible(self.modes[mode], self._dry(), t, q, v) if mode == "stuck" else None
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.90) v = v_s ln E, E = e^{v₀/v_s − κt} − (F_s − F)(1 − e^{−κt})/(F − P); x = ∫ v dt.
 
@@ -91,7 +85,6 @@ class StribeckBrake(System):
         v = self.v_s * math.log(self._grown(t)) if t < self._halts() else 0.0
         return np.array([float(x)]), np.array([v])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.90) stops where E = 1: κ t = ln (1 + (F − P)(e^{v₀/v_s} − 1)/(F_s − P))."""
         return [("stops", self._halts())] if self._halts() <= until else []

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.friction import Dry
 from ...system import Array, Guard, System
 from .stick_slip import Drawn, guards, modes, possible
@@ -40,12 +39,10 @@ class StribeckDrive(System):
         """At rest, the spring without force."""
         return "stuck", np.zeros(1), np.zeros(1)
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.90) `slips` and `stops`: at v = 0 as (2.89)."""
         return guards(self._pull(), self._dry(), mode)
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.90) F_a within the static friction where it sticks."""
         return possible(self.modes[mode], self._dry(), t, q, v) if mode == "stuck" else None

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 # In a period, for the next zero of v. What is shorter than a look, as a dip of v where d is small,
@@ -41,32 +40,26 @@ class ViscousGuide(Mode):
         """At rest at x = 0."""
         return np.zeros(1), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.85), (2.88) m v̇ = F_a − d₋ v, v < 0; F_a − d₊ v, v > 0 [m/s²], (1,)."""
         return np.array([(self.F_a(t) - self.d(v[0]) * v[0]) / self.m])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) the guide bears nothing: all acts along it."""
         return {"guide.fy": 0.0}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46), (2.47) D = ½ d ẋ² [W]."""
         return self.d(v[0]) * v[0] ** 2 / 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = F_a [N], (1,)."""
         return np.array([self.F_a(t)])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, 0)."""
         return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
@@ -96,12 +89,10 @@ class ViscousGrowingForce(ViscousGuide):
             raise ValueError(f"the force grows with b > 0, not {self.b}")
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
 
-    @equation
     def F_a(self, t: Any) -> Any:
         """(2.97) F_a = −b t [N]."""
         return -self.b * t
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.88) v = −(b/d₋) (t − τ (1 − e^{−t/τ})), τ = m/d₋: it moves at once. x = ∫ v dt."""
         tau, rate = self.m / self.d_minus, self.b / self.d_minus
@@ -125,19 +116,16 @@ class ViscousDrift(ViscousGuide):
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
         object.__setattr__(self, "_known", [(0.0, 0.0, 1 if self.A > 0 else -1)])
 
-    @equation
     def F_a(self, t: Any) -> Any:
         """(2.88) F_a = A sin w t [N]."""
         return self.A * np.sin(self.w * t)
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.88) solved from one zero of v to the next, see `_after`."""
         begun = next(piece for piece in reversed(self._pieces_until(t)) if piece[0] <= t)
         x, v = self._after(*begun, t)
         return np.array([x]), np.array([v])
 
-    @equation
     def _after(self, t0: float, x0: float, way: int, t: float) -> tuple[float, float]:
         """(2.88) v = u(t) − u(t₀) e^{−k(t−t₀)}, u = A (k sin wt − w cos wt)/(m (k² + w²)), k = d/m.
 

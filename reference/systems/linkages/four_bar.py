@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -34,7 +33,6 @@ class FourBar(Mode):
         masses = {name: Mass(self.m, self.m * l**2 / 12) for name, l in lengths.items()}
         object.__setattr__(self, "masses", masses)
 
-    @equation
     def start(self) -> tuple[Array, Array]:
         """(2.14) β = arg s + arccos((b² + s² − c²)/(2 b s)), s from B to Q, at rest; C above s."""
         sx, sy = self.d - self.a * math.cos(self.crank0), -self.a * math.sin(self.crank0)
@@ -44,7 +42,6 @@ class FourBar(Mode):
         gamma = math.atan2(self.b * math.sin(beta) - sy, self.b * math.cos(beta) - sx)
         return np.array([self.crank0, beta, gamma]), np.zeros(3)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) E₁ + k_β E₂ + k_γ E₃ = 0, β̈ = k_β α̈ + h_β, γ̈ = k_γ α̈ + h_γ [rad/s²], (3,).
 
@@ -78,7 +75,6 @@ class FourBar(Mode):
         alpha_ddot = -rest / inertia
         return np.array([alpha_ddot, k_b * alpha_ddot + h_b, k_c * alpha_ddot + h_c])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) e_β′·C = −E₂/b, e_γ′·C = E₃/c by Cramer; B, D, A by (2.23) [N]."""
         m, a, b, c = self.m, self.a, self.b, self.c
@@ -107,7 +103,6 @@ class FourBar(Mode):
             "D.fy": m * (y3 / 2 + G) - Cy,
         }
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (4/3 a² α̇² + a b cos(β − α) α̇ β̇ + b² β̇²/3 + c² γ̇²/3) [J]."""
         crank = 4 / 3 * self.a**2 * v[0] ** 2
@@ -115,32 +110,23 @@ class FourBar(Mode):
         ends = (self.b**2 * v[1] ** 2 + self.c**2 * v[2] ** 2) / 3
         return self.m / 2 * (crank + mixed + ends)
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ m g (3 a sin α + b sin β + c sin γ) [J]."""
         sines = np.sin(q)
         return self.m * G / 2 * (3 * self.a * sines[0] + self.b * sines[1] + self.c * sines[2])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) d e_x + c e_γ − a e_α − b e_β = 0 [m], (2,): λ is the force C on the rocker."""
         cos, sin = np.cos(q), np.sin(q)
         x = self.d + self.c * cos[2] - self.a * cos[0] - self.b * cos[1]
         return np.array([x, self.c * sin[2] - self.a * sin[0] - self.b * sin[1]])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.55) c e_γ′ γ̇ − a e_α′ α̇ − b e_β′ β̇ = 0: rows (2, 3)."""
+        """(2.15), (2.55) c e_γ′ γ̇ − a e_α′ α̇ − b e_β′ β̇ = 0: rows (2, 3)."""
         cos, sin = np.cos(q), np.sin(q)
         lengths = np.array([-self.a, -self.b, self.c])
         return np.array([-lengths * sin, lengths * cos])
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven, (2,)."""
-        return np.zeros(2)
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R = (a/2) e_α, a e_α + (b/2) e_β, d e_x + (c/2) e_γ."""
         halves = np.array([self.a, self.b, self.c]) / 2
@@ -153,7 +139,6 @@ class FourBar(Mode):
             "rocker": (self.d + x[2], y[2], q[2], u[2], w[2], v[2]),
         }
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights at the centres."""
         down = (0.0, -self.m * G)

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -39,7 +38,6 @@ class Rhombus(Mode):
         """At rest at left0, right0."""
         return np.array([self.left0, self.right0]), np.zeros(2)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) m l² (5/3 θ̈₁ + cos Δ θ̈₂) = P₁, m l² (cos Δ θ̈₁ + 5/3 θ̈₂) = P₂ [rad/s²], (2,).
 
@@ -59,13 +57,11 @@ class Rhombus(Mode):
         det = 25 / 9 - cos * cos
         return np.array([(5 / 3 * P1 - cos * P2) / det, (5 / 3 * P2 - cos * P1) / det])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m l² (5/3 (θ̇₁² + θ̇₂²) + 2 cos(θ₁ − θ₂) θ̇₁ θ̇₂) [J]."""
         squares = 5 / 3 * (v[0] ** 2 + v[1] ** 2)
         return self.m * self.l**2 / 2 * (squares + 2 * np.cos(q[0] - q[1]) * v[0] * v[1])
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = 2 m g l (sin θ₁ + sin θ₂) + ½ c (s − λ₀)², s = l |e₁ − e₂| [J]."""
         dx, dy = np.cos(q[0]) - np.cos(q[1]), np.sin(q[0]) - np.sin(q[1])
@@ -73,7 +69,6 @@ class Rhombus(Mode):
         height = np.sin(q[0]) + np.sin(q[1])
         return 2 * self.m * G * self.l * height + self.c * (s - self.l0) ** 2 / 2
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R = (l/2) e₁, (l/2) e₂, l e₁ + (l/2) e₂, l e₂ + (l/2) e₁."""
         x1, y1 = self.l / 2 * np.cos(q[0]), self.l / 2 * np.sin(q[0])
@@ -94,7 +89,6 @@ class Rhombus(Mode):
             (self.l * math.cos(right), self.l * math.sin(right)),
         )
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights; (2.82) the spring pulls the knees together with c (s − λ₀)."""
         left, right = self._knees(q)

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -43,30 +42,25 @@ class Hanging(Mode):
         """q̇ = (ẏ, −v(F)), F = c_s (λ − u)."""
         return np.array([v[0], -self.shortening(self.cs * (-q[0] - q[1]))])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) m ÿ = −m g + c_s (λ − u) + c_p (λ − L) [m/s²], (1,)."""
         pull = self.cs * (-q[0] - q[1]) + self.cp * (-q[0] - self.L)
         return np.array([pull / self.m - G])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẏ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c_s (λ − u)² + ½ c_p (λ − L)² + m g y, λ = −y [J]."""
         series, beside = -q[0] - q[1], -q[0] - self.L
         return (self.cs * series**2 + self.cp * beside**2) / 2 + self.m * G * q[0]
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (0, y), and the inner state."""
         load = (0.0, q[0], 0.0, 0.0, v[0], 0.0)
         return {self.body: load, "muscle.contractile_length": (q[1],)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, (2.82) the two springs, towards the hook."""
         y, u = q.tolist()
@@ -149,12 +143,10 @@ class MuscleIsometric(MuscleLoad):
         """Held, with u₀."""
         return np.array([-self.l, self.u0]), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) ÿ = 0 [m/s²], (1,)."""
         return np.zeros(1)
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) The ground bears what the muscle leaves of the weight."""
         pull = self.cs * (-q[0] - q[1]) + self.cp * (-q[0] - self.L)
@@ -172,20 +164,13 @@ class MuscleIsometric(MuscleLoad):
         w = -A * float(lambertw(x).real)
         return np.array([-self.l, self.l - (self.F0 - w) / self.cs]), np.zeros(1)
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) y + λ = 0."""
         return np.array([q[0] + self.l])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẏ = 0."""
         return np.ones((1, 1))
-
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven."""
-        return np.zeros(1)
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The hook is held in both directions."""

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
-from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ...system import Array, Load, Mass, Mode, Pose, Vector
 
 
 @dataclass(frozen=True)
@@ -34,13 +33,11 @@ class ChargeInField(Mode):
         """r(0) = 0, ṙ(0) = v₀ e_x."""
         return np.zeros(2), np.array([self.v0, 0.0])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) m ẍ = e B ẏ, m ÿ = −e B ẋ + F [m/s²], (2,)."""
         omega = self.e * self.B / self.m
         return np.array([omega * v[1], self.F / self.m - omega * v[0]])
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.49) x = u t + (w/ω) sin ωt, y = (w/ω)(cos ωt − 1), u = F/(e B), w = v₀ − u, ω = e B/m.
 
@@ -51,22 +48,18 @@ class ChargeInField(Mode):
         height = -2.0 * (w / omega) * math.sin(omega * t / 2) ** 2
         return np.array([u * t + w / omega * sin, height]), np.array([u + w * cos, -w * sin])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m (ẋ² + ẏ²) [J]."""
         return self.m * (v[0] ** 2 + v[1] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −F y [J]."""
         return -self.F * q[1]
 
-    @equation
     def V(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.49) V = ½ e B (y ẋ − x ẏ) [J]."""
         return self.e * self.B * (q[1] * v[0] - q[0] * v[1]) / 2
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, y)."""
         return {"electron": (q[0], q[1], 0.0, v[0], v[1], 0.0)}
@@ -76,7 +69,3 @@ class ChargeInField(Mode):
         (x, y), (x_dot, y_dot) = q.tolist(), v.tolist()
         deflected = (self.e * y_dot * self.B, -self.e * x_dot * self.B)
         return [Load("electron", (x, y), force) for force in (deflected, (0.0, self.F))]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Nothing holds it."""
-        return []

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 NOISE = 1e-12  # of v₀: two integrators differ by no more in a speed that falls to zero
@@ -33,7 +32,6 @@ class Slowing(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"block": Mass(self.m, None)})
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.86), (2.88) m v̇ = −d |v|^α sign(v), 0 where it rests [m/s²], (1,)."""
         return np.array([0.0 if self.rests else self._force(float(v[0])) / self.m])
@@ -42,39 +40,28 @@ class Slowing(Mode):
         """Returns the drag [N] along the guide at this velocity."""
         return -self.d * math.copysign(abs(v) ** self.alpha, v)
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) The guide bears nothing, and what rests needs no force to rest."""
         return {"guide.fx": 0.0, "guide.fy": 0.0} if self.rests else {"guide.fy": 0.0}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẋ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = d |ẋ|^{α+1}/(α + 1) [W], Q = −∂D/∂ẋ; |ẋ| is √ẋ², for ẋ may be complex."""
         if self.rests:
             return 0.0 * v[0]  # of the type of v: complex while a derivative is taken
         return self.d * (v[0] * v[0]) ** ((self.alpha + 1) / 2) / (self.alpha + 1)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ = 0 where it rests."""
         return np.ones((1, 1)) if self.rests else np.zeros((0, 1))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the guide does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, 0)."""
         return {"block": (q[0], 0.0, 0.0, v[0], 0.0, 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.86) the friction of the guide, along it."""
         return [Load("block", (float(q[0]), 0.0), (self._force(float(v[0])), 0.0))]
@@ -114,7 +101,6 @@ class DragStops(System):
         """Whether it comes to rest in a finite time."""
         return self.alpha < 1.0
 
-    @equation
     def _until(self, v: float) -> float:
         """(2.88) v^{1−α} = (1 − α) (d/m) (t_s − t): t_s − t [s], from the speed v to rest."""
         return v ** (1 - self.alpha) * self.m / (self.d * (1 - self.alpha))
@@ -123,7 +109,6 @@ class DragStops(System):
         """The mode `moves`, x = 0 and v₀."""
         return "moves", np.zeros(1), np.array([self.v0])
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.86) `stops` where v falls to zero, with α < 1."""
         if mode == "rest" or "rest" not in self.modes:
@@ -131,7 +116,6 @@ class DragStops(System):
         rest = np.zeros(1)
         return (Guard("stops", lambda t, q, v: float(v[0]), lambda t, q, v: ("rest", q, rest)),)
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.88) v^{1−α} = v₀^{1−α} − (1 − α) k t, x = (v₀^{2−α} − v^{2−α})/((2 − α) k), k = d/m.
 
@@ -148,7 +132,6 @@ class DragStops(System):
             x = (v0 ** (2 - alpha) - v ** (2 - alpha)) / ((2 - alpha) * k)
         return np.array([x]), np.array([v])
 
-    @equation
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """(2.88) stops at t_s = v₀^{1−α}/((1 − α) k), if α < 1."""
         t_s = self._until(self.v0) if self.stops else math.inf

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
-from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
+from ...system import Array, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
 
@@ -33,12 +32,10 @@ class FallingDrag(Mode):
         """At rest at y = 0."""
         return np.zeros(1), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.81), (2.86) m ÿ = −m g − d |ẏ| ẏ [m/s²], (1,)."""
         return np.array([-G - self.d / self.m * abs(float(v[0])) * v[0]])
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.86) v = −v∞ tanh(g t/v∞), y = −(v∞²/g) ln cosh(g t/v∞), v∞² = m g/d.
 
@@ -51,33 +48,24 @@ class FallingDrag(Mode):
         fallen = math.log1p(math.sinh(s) ** 2) / 2 if s < 1.0 else large
         return np.array([-(limit**2) / G * fallen]), np.array([-limit * math.tanh(s)])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẏ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g y [J]."""
         return self.m * G * q[0]
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = d |ẏ|³/3 [W]: falling, |ẏ| is −ẏ, also of a complex ẏ, where abs() fails."""
         return self.d * v[0] ** 3 / (3.0 if np.real(v[0]) > 0.0 else -3.0)
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (0, y)."""
         return {"ball": (0.0, q[0], 0.0, 0.0, v[0], 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, (2.84) drag against the velocity."""
         y, y_dot = float(q[0]), float(v[0])
         drag = -self.d * math.copysign(y_dot * y_dot, y_dot)
         return [Load("ball", (0.0, y), (0.0, force)) for force in (-self.m * G, drag)]
-
-    def cuts(self, t: float, q: Array) -> list[Cut]:
-        """Returns none: nothing holds the ball."""
-        return []

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -34,12 +33,10 @@ class SpringMassDamper(Mode):
         """At rest at y0."""
         return np.array([self.y0]), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) m ÿ = −m g − c (y + λ₀) − d ẏ [m/s²], (1,)."""
         return np.array([-G - (self.c * (q[0] + self.l0) + self.d * v[0]) / self.m])
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.44) z = z₀ e^{−δt} (C + δ S), ż = −z₀ ω₀² e^{−δt} S, z = y + λ₀ + m g/c.
 
@@ -66,27 +63,22 @@ class SpringMassDamper(Mode):
             np.array([-z0 * omega02 * fade * S]),
         )
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ẏ² [J]."""
         return self.m * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c (λ − λ₀)² + m g y, λ = −y [J]."""
         return self.c * (-q[0] - self.l0) ** 2 / 2 + self.m * G * q[0]
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46), (2.47) D = ½ d ẏ² [W], Q = −∂D/∂ẏ."""
         return self.d * v[0] ** 2 / 2
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (0, y)."""
         return {"mass": (0.0, q[0], 0.0, 0.0, v[0], 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, (2.82) spring F = −c (λ − λ₀) along the spring, (2.47) damper −d ẏ."""
         y, y_dot = float(q[0]), float(v[0])

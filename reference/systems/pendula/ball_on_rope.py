@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 from ..quadrature import integral
 
@@ -34,54 +33,40 @@ class _Ball(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"ball": Mass(self.m, None)})
 
-    @equation
     def _pull(self, q: Array, v: Array) -> float:
         """(2.23) along the rope: F = m (v² − g y)/L where it is taut [N]."""
         return self.m * (float(v @ v) - G * float(q[1])) / self.L if self.taut else 0.0
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.23) m r̈ = m g − F r/|r| [m/s²], (2,)."""
         pull = self._pull(q, v) / self.m / math.sqrt(float(q @ q))
         return np.array([-pull * q[0], -G - pull * q[1]])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ = F where it is taut [N]."""
         return {"rope.force": self._pull(q, v)} if self.taut else {}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m ṙ² [J]."""
         return self.m * (v[0] ** 2 + v[1] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g y [J]."""
         return self.m * G * q[1]
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) L − √(x² + y²) = 0 where it is taut [m]."""
         return np.array([self.L - np.sqrt(q[0] ** 2 + q[1] ** 2)]) if self.taut else np.zeros(0)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.55) −r/|r|: λ pulls towards the point."""
+        """(2.15), (2.55) −r/|r|: λ pulls towards the point."""
         row = -q[:2] / np.sqrt(q[0] ** 2 + q[1] ** 2)
         return row[None, :] if self.taut else np.zeros((0, 2))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the rope's length does not change."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) r = (x, y)."""
         return {"ball": (q[0], q[1], 0.0, v[0], v[1], 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight."""
         return [Load("ball", (float(q[0]), float(q[1])), (0.0, -self.m * G))]
@@ -128,7 +113,6 @@ class BallOnRope(System):
         pull = lambda t, q, v: self.modes[mode].reactions(t, q, v)["rope.force"]  # noqa: E731
         return (Guard("slackens", pull, lambda t, q, v: ("flies", q, v)),)
 
-    @equation
     def _caught(self, t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
         """(2.22) the rope's impulse m Δṙ is along it: what is left is ṙ − (ṙ·n) n, |r| = L."""
         n = q / math.sqrt(float(q @ q))

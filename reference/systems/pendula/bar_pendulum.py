@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 from ..elliptic import jacobi
 
@@ -29,7 +28,6 @@ class BarPendulum(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"bar": Mass(self.m, self.m * self.l**2 / 12)})
 
-    @equation
     def _J_O(self) -> float:
         """(2.35) J_O = J_c + m (l/2)² = m l²/12 + m l²/4 [kg m²]."""
         return self.m * self.l**2 / 12 + self.m * self.l**2 / 4
@@ -38,12 +36,10 @@ class BarPendulum(Mode):
         """At rest at phi0."""
         return np.array([self.phi0]), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34) J_O φ̈ = −m g (l/2) cos φ [rad/s²], (1,)."""
         return np.array([-self.m * G * self.l / 2 * math.cos(q[0]) / self._J_O()])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) F = m r̈_c − m g [N], r̈_c = (l/2)(φ̈ e_φ − φ̇² e_r): the ground on the bar."""
         phi_dot, phi_ddot = float(v[0]), float(self.accelerations(t, q, v)[0])
@@ -52,7 +48,6 @@ class BarPendulum(Mode):
         y_ddot = self.l / 2 * (cos * phi_ddot - sin * phi_dot**2)
         return {"hinge.fx": self.m * x_ddot, "hinge.fy": self.m * (y_ddot + G)}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.34) tan(θ/2) = k cn(Ωt)/k′, θ̇ = −2Ω k k′ sn/dn: θ from hanging, Ω² = 3g/(2l).
 
@@ -67,23 +62,19 @@ class BarPendulum(Mode):
         theta = 2 * math.atan2(k * cn, k1)
         return np.array([self.phi0 + (theta - theta0)]), np.array([-2 * Omega * k * k1 * sn / dn])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ J_O φ̇², J_O = m l²/3 [J]."""
         return self.m * self.l**2 / 6 * v[0] ** 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g (l/2) sin φ [J]."""
         return self.m * G * self.l / 2 * np.sin(q[0])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (l/2)(cos φ, sin φ)."""
         x, y = self.l / 2 * np.cos(q[0]), self.l / 2 * np.sin(q[0])
         return {"bar": (x, y, q[0], -y * v[0], x * v[0], v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight m g at the centre."""
         x, y, *_ = self.poses(t, q, v)["bar"]

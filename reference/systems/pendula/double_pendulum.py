@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -37,7 +36,6 @@ class DoublePendulum(Mode):
         """At rest at a0, b0."""
         return np.array([self.a0, self.b0]), np.zeros(2)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) A α̈ + B cos Δ β̈ = P, B cos Δ α̈ + C β̈ = S, by Cramer [rad/s²], (2,).
 
@@ -56,7 +54,6 @@ class DoublePendulum(Mode):
         det = A * C - Bc * Bc
         return np.array([(P * C - Bc * S) / det, (A * S - Bc * P) / det])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) elbow = m₂ (r̈₂ − g), shoulder = m₁ (r̈₁ − g) + elbow [N].
 
@@ -77,7 +74,6 @@ class DoublePendulum(Mode):
             "elbow.fy": fy,
         }
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m₁ l₁² α̇²/3 + ½ m₂ (l₁² α̇² + l₁ l₂ cos(α − β) α̇ β̇ + l₂² β̇²/3) [J]."""
         l1, l2 = self.l1, self.l2
@@ -85,13 +81,11 @@ class DoublePendulum(Mode):
         mixed = l1 * l2 * np.cos(q[0] - q[1]) * v[0] * v[1]
         return (upper + self.m2 * (l1**2 * v[0] ** 2 + mixed + l2**2 / 3 * v[1] ** 2)) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m₁ g (l₁/2) sin α + m₂ g (l₁ sin α + (l₂/2) sin β) [J]."""
         elbow = self.l1 * np.sin(q[0])
         return G * (self.m1 * elbow / 2 + self.m2 * (elbow + self.l2 / 2 * np.sin(q[1])))
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (l₁/2) e_α, R₂ = l₁ e_α + (l₂/2) e_β."""
         x1, y1 = self.l1 / 2 * np.cos(q[0]), self.l1 / 2 * np.sin(q[0])
@@ -102,7 +96,6 @@ class DoublePendulum(Mode):
             "lower": (2 * x1 + x2, 2 * y1 + y2, q[1], vx, vy, v[1]),
         }
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights at the centres."""
         at = {name: (pose[0], pose[1]) for name, pose in self.poses(t, q, v).items()}

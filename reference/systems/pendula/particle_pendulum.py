@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 from ..elliptic import jacobi
 
@@ -30,7 +29,6 @@ class ParticlePendulum(Mode):
         object.__setattr__(self, "masses", {"bob": Mass(self.m, None)})
 
     @property
-    @equation
     def _l(self) -> float:
         """(2.14) l = √(x₀² + y₀²), which the rod holds [m]."""
         return math.sqrt(self.x0**2 + self.y0**2)
@@ -39,17 +37,14 @@ class ParticlePendulum(Mode):
         """At rest where it is released."""
         return np.array([math.atan2(self.y0, self.x0)]), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) l φ̈ = −g cos φ, (1,)."""
         return np.array([-G / self._l * math.cos(q[0])])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) the rod pulls with F = m (l φ̇² − g sin φ) [N]."""
         return {"rod.force": self.m * (self._l * float(v[0]) ** 2 - G * math.sin(q[0]))}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.44) sin(θ/2) = k cd(Ω t), θ̇ = −2 Ω k k′ sn/dn: θ from hanging, Ω² = g/l.
 
@@ -64,23 +59,19 @@ class ParticlePendulum(Mode):
         theta = 2 * math.atan2(k * cn, k1)
         return np.array([phi0 + (theta - theta0)]), np.array([-2 * Omega * k * k1 * sn / dn])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m l² φ̇² [J]."""
         return self.m * self._l**2 / 2 * v[0] ** 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g l sin φ [J]."""
         return self.m * G * self._l * np.sin(q[0])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) r = l (cos φ, sin φ)."""
         x, y = self._l * np.cos(q[0]), self._l * np.sin(q[0])
         return {"bob": (x, y, 0.0, -y * v[0], x * v[0], 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight."""
         x, y, *_ = self.poses(t, q, v)["bob"]

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -30,12 +29,10 @@ class _Bar(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"bar": Mass(self.m, self.m * self.l**2 / 12)})
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34), (2.35) ⅓ m l² φ̈ = −½ m g l cos φ, 0 at rest [rad/s²], (1,)."""
         return np.array([0.0 if self.rests else -1.5 * G / self.l * math.cos(q[0])])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) F = m r̈_c − m g [N]; at rest the stop's M = ½ m g l cos φ [N m]."""
         rate, change = float(v[0]), float(self.accelerations(t, q, v)[0])
@@ -46,38 +43,27 @@ class _Bar(Mode):
         }
         return found | ({"stop.low": arm * G * cos} if self.rests else {})
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ⅙ m l² φ̇² [J]."""
         return self.m * self.l**2 / 6 * v[0] ** 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ m g l sin φ [J]."""
         return self.m * G * self.l / 2 * np.sin(q[0])
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) φ = low at rest [rad]."""
         return np.array([q[0] - self.low]) if self.rests else np.zeros(0)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) φ̇ = 0 at rest: λ is the stop's moment."""
         return np.ones((1, 1)) if self.rests else np.zeros((0, 1))
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the stop does not move."""
-        return np.zeros(len(self.f_a(t, q)))
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = ½ l (cos φ, sin φ)."""
         x, y = self.l / 2 * np.cos(q[0]), self.l / 2 * np.sin(q[0])
         return {"bar": (x, y, q[0], -y * v[0], x * v[0], v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the centre."""
         x, y, *_ = self.poses(t, q, v)["bar"]

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -42,19 +41,16 @@ class TorsionPendulum(Mode):
         """As the case says."""
         return np.array([self.phi]), np.array([self.w0])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34), (2.44) J₃₃ φ̈ = −c (φ − φ₀) − d φ̇ + M sin Ω t, (1,)."""
         J33 = self.m * self.R**2 / 2
         torque = -self.c * (q[0] - self.phi0) - self.d * v[0] + self.M * math.sin(self.Omega * t)
         return np.array([torque / J33])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) the pin holds the weight: F = (0, m g) [N]."""
         return {"axle.fx": 0.0, "axle.fy": self.m * G}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.44) φ = φ₀ + Im (A e^{iΩt}) + Re (B e^{λt}) + Re (C e^{μt}), λ, μ the roots.
 
@@ -71,33 +67,27 @@ class TorsionPendulum(Mode):
         rate = (1j * self.Omega * A * drive).imag + (slow * B * one + fast * C * two).real
         return np.array([self.phi0 + x]), np.array([rate])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ J₃₃ φ̇² [J]."""
         return self.m * self.R**2 / 4 * v[0] ** 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c (φ − φ₀)² [J]."""
         return self.c * (q[0] - self.phi0) ** 2 / 2
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = ½ d φ̇² [W]."""
         return self.d * v[0] ** 2 / 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = M sin Ω t [N m], (1,)."""
         return np.array([self.M * np.sin(self.Omega * t)])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) the centre stays at the pin, angle = φ."""
         still = 0.0 * q[0]
         return {"disk": (still, still, q[0], still, still, v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, and the torques of spring, damper and drive as one moment."""
         torque = -self.c * (q[0] - self.phi0) - self.d * v[0] + self.M * math.sin(self.Omega * t)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered, equation
 from ...system import Array, Vector
 from .triples import (
     GROUND,
@@ -31,7 +31,7 @@ G = 9.80665  # m/s²
 
 
 @dataclass(frozen=True)
-class Link:
+class Link(Numbered):
     """A body: m [kg]; J₁₁, J₂₂, J₃₃, J₁₂, J₁₃, J₂₃ [kg m²]; the ends a, b [m] from its centre.
 
     Joint k turns body k about its own axis (0, 1, 2) through a; b is the next joint, or P.
@@ -44,7 +44,6 @@ class Link:
     a: Triple
     b: Triple
 
-    @equation
     def turned(self, x: Triple) -> Triple:
         """(2.31) J_ik x_k, in body axes."""
         d1, d2, d3, d12, d13, d23 = self.J

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Vector
 from .arm import LINKS, outward, places
 from .serial_arm import NAMES, SerialArm
@@ -45,13 +44,11 @@ class DrivenRobot(SerialArm):
         S = [self.S1, self.S2, self.S3, self.S4, self.S5]
         return np.array(S), np.array([self.n1, self.n2, self.n3, self.n4, self.n5])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.15) q̈_k = S_k n_k cos n_k t, whatever the masses are [rad/s²], (5,)."""
         S, n = self.drives()
         return S * n * np.cos(n * t)
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) inward along the arm [N, N m]; the torque of a drive is u_k · M_k."""
         where = places(q)
@@ -63,7 +60,6 @@ class DrivenRobot(SerialArm):
             held[f"{joint}.torque"] = float(dot(place.u, (x, y, z)))
         return held
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.12) q_k = q_k(0) + S_k/n_k (1 − cos n_k t), q̇_k = S_k sin n_k t.
 
@@ -76,12 +72,10 @@ class DrivenRobot(SerialArm):
         q = [q0 + 2 * S / n * math.sin(n * t / 2) ** 2 for q0, S, n in rows]
         return np.array(q), np.array([S * math.sin(n * t) for _, S, n in rows])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) every rate is prescribed: the unit rows (5, 5), λ the torques."""
         return np.eye(5)
 
-    @equation
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) q̇_k = S_k sin n_k t [rad/s], (5,)."""
         S, n = self.drives()

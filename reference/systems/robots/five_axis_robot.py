@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array
 from .arm import bias, mass_matrix, outward, places
 from .serial_arm import SerialArm
@@ -34,14 +33,12 @@ class FiveAxisRobot(SerialArm):
         q = [self.q1, self.q2, self.q3, self.q4, self.q5]
         return np.array(q), np.array([self.w1, self.w2, self.w3, self.w4, self.w5])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) M_ab q̈ᵇ = −bias: no torque about any hinge [rad/s²], (5,)."""
         where = places(q)
         q_ddot: Any = np.linalg.solve(mass_matrix(where), np.negative(bias(where, v.tolist())))
         return q_ddot
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) inward along the arm [N, N m]."""
         where, a = places(q), self.accelerations(t, q, v)

@@ -42,7 +42,6 @@ class RobotKnife(SerialArm):
         if abs(np.linalg.det(np.array(self.rows(where))[:, :2])) < SINGULAR:
             raise ValueError("at these angles the edge does not determine the rates of q1 and q2")
 
-    @equation
     def start(self) -> tuple[Array, Array]:
         """(2.61) w₁ and w₂ from f_a q̇ᵃ = 0: P is kept at the height where it starts."""
         q, own = self._angles(), np.array([self.w3, self.w4, self.w5])
@@ -52,14 +51,12 @@ class RobotKnife(SerialArm):
     def _angles(self) -> Array:
         return np.array([self.q1, self.q2, self.q3, self.q4, self.q5])
 
-    @equation
     def rows(self, where: list[Place]) -> list[list[Any]]:
         """(2.15) ż_P = 0, n · ṙ_P = 0, with ∂ṙ_P/∂q̇_j = u_j × (P − p_j): two rows of 5."""
         P, (_, n) = where[-1].end, heading(where)
         moved = [cross(place.u, minus(P, place.p)) for place in where]
         return [[x[2] for x in moved], [dot(n, x) for x in moved]]
 
-    @equation
     def guided(self, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) M_ab q̈ᵇ + bias_a = λ_b f_aᵇ, f_a q̈ᵃ = −ḟ_a q̇ᵃ: q̈ (5,), λ (2,) [N].
 
@@ -76,12 +73,10 @@ class RobotKnife(SerialArm):
         found: Any = np.linalg.solve(matrix, right)
         return found[:5], found[5:]
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) as `guided` has it [rad/s²], (5,)."""
         return self.guided(q, v)[0]
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ are the plane's forces on the edge; (2.23), (2.27) inward from it [N, N m]."""
         where, (a, lam) = places(q), self.guided(q, v)
@@ -90,20 +85,13 @@ class RobotKnife(SerialArm):
         held = self.joint_reactions(where, outward(where, v.tolist(), a.tolist()), tip)
         return held | {"blade.normal": normal, "blade.force": side}
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) z_P − z_P(0) = 0 [m], (1,)."""
         return np.array([places(q)[-1].end[2] - places(self._angles())[-1].end[2]])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) as `rows` has it, (2, 5)."""
         return np.array(self.rows(places(q)))
-
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven, (2,)."""
-        return np.zeros(2)
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """As of any arm, and the edge: a force upward and one to its left."""

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 from .arm import LINKS, G, Moving, Place, inward, places
 from .triples import NIL, Triple, cross, dot, embodied, minus, plus, times
@@ -27,7 +26,6 @@ class SerialArm(Mode):
         masses = {link.name: Mass(link.m, J) for link, J in zip(LINKS, tensors, strict=True)}
         object.__setattr__(self, "masses", masses)
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = Σ ½ m ṙ_c² + ½ J_ik ω_i ω_k [J], by the velocities that each rate alone gives.
 
@@ -42,13 +40,11 @@ class SerialArm(Mode):
             found = found + (link.m * np.sum(c_dot**2, axis=0) + np.sum(spin, axis=0)) / 2
         return found
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = Σ m g z_c [J]."""
         rows = zip(LINKS, places(q), strict=True)
         return sum(link.m * G * place.c[2] for link, place in rows)
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.6), (2.8)–(2.12) R_k, E_k, ṙ = ṙ_p + ω × x and ω = ω_{k,k−1} + ω_{k−1,0}.
 
@@ -70,7 +66,6 @@ class SerialArm(Mode):
             found[link.name] = (*place.c, w, *x, *c_dot, *embodied(place.E, omega))
         return found
 
-    @equation
     def joint_reactions(
         self, where: list[Place], moving: list[Moving], tip: Triple = NIL
     ) -> dict[str, float]:
@@ -85,7 +80,6 @@ class SerialArm(Mode):
             for field, x in zip(("fx", "fy", "fz", "mx", "my", "mz"), (*F, *M), strict=True)
         }
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights m g at the centres."""
         rows = zip(LINKS, places(q), strict=True)

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Vector
 from ..quadrature import integral
 from .blade_on_plane import BladeOnPlane
@@ -37,7 +36,6 @@ class DrivenEdge(BladeOnPlane):
         angle = self.Omega * t + self.alpha
         return self.A * math.sin(angle), self.A * self.Omega * math.cos(angle)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) P has ṡ along the blade and s ω across it; (J + m a²) ω̇ = −m a s ω, (3,)."""
         cos, sin = math.cos(q[2]), math.sin(q[2])
@@ -46,7 +44,6 @@ class DrivenEdge(BladeOnPlane):
         omega_dot = -self.m * self.a * across / (self.J + self.m * self.a**2)
         return np.array([s_dot * cos - across * sin, s_dot * sin + across * cos, omega_dot])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ₁ = m J s ω/(J + m a²) to the left, λ₂ = m (ṡ − a ω²) along the blade [N]."""
         s, s_dot = self._drive(t)
@@ -54,7 +51,6 @@ class DrivenEdge(BladeOnPlane):
         along = self.m * (s_dot - self.a * v[2] ** 2)
         return {"blade.force": float(self.m * share * s * v[2]), "blade.drive": float(along)}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.60) ω = ω₀ exp(−κ (A/Ω) (cos α − cos(Ω t + α))), κ = m a/(J + m a²).
 
@@ -82,13 +78,11 @@ class DrivenEdge(BladeOnPlane):
         theta, rate = float(integral(omega, now, panels)), float(omega(now))
         return np.array([path.real, path.imag, theta]), np.array([v.real, v.imag, rate])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) −ẋ sin θ + ẏ cos θ = 0, ẋ cos θ + ẏ sin θ = s: rows (2, 3)."""
         cos, sin = np.cos(q[2]), np.sin(q[2])
         return np.array([[-sin, cos, 0.0], [cos, sin, 0.0]])
 
-    @equation
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) (0, s(t)) [m/s], (2,)."""
         return np.array([0.0, self.A * np.sin(self.Omega * t + self.alpha)])

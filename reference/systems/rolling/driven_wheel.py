@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Vector
 from .wheel_on_plane import WheelOnPlane
 
@@ -23,19 +22,16 @@ class DrivenWheel(WheelOnPlane):
     A: float
     nu: float
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.20) θ̈ = k + A ν cos νt, φ̈ = 0 [rad/s²]; ẍ, ÿ as it rolls, (4,)."""
         return self.rolling(q, v, self.k + self.A * self.nu * math.cos(self.nu * t), 0.0)
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) as of any wheel; the drives' torques are M_z and M·n [N, N m]."""
         held = self.guide_reactions(q, v, self.accelerations(t, q, v))
         drive = held["upright.my"] * math.cos(q[2]) - held["upright.mx"] * math.sin(q[2])
         return held | {"upright.theta_torque": held["upright.mz"], "upright.phi_torque": drive}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.20) ẋ + iẏ = R w e^{iθ}: a circle of radius R w/Ω, or θ = ½ k t² and a clothoid.
 
@@ -59,12 +55,10 @@ class DrivenWheel(WheelOnPlane):
         rates = [speed * math.cos(theta), speed * math.sin(theta), theta_dot, self.w]
         return np.array([x, y, theta, phi]), np.array(rates)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15), (2.20) it rolls, and both rates are prescribed: rows (4, 4)."""
         return np.array([*self.rows(q), [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 
-    @equation
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) (0, 0, θ̇, φ̇), (4,): λ₃ and λ₄ are the drives' torques."""
         heading = self.Omega + self.k * t + self.A * np.sin(self.nu * t)

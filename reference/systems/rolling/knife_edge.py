@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -35,7 +34,6 @@ class KnifeEdge(Mode):
         """At the origin, the blade pointing down the slope."""
         return np.zeros(3), np.array([self.u0, 0.0, self.w0])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) u̇ = g sin β cos θ along the blade, u ω across it, ω̇ = 0, (3,)."""
         cos, sin = math.cos(q[2]), math.sin(q[2])
@@ -43,14 +41,12 @@ class KnifeEdge(Mode):
         across = (v[0] * cos + v[1] * sin) * v[2]
         return np.array([u_dot * cos - across * sin, u_dot * sin + across * cos, 0.0])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ = m (u ω + g sin β sin θ) [N], to the left of the blade."""
         cos, sin = math.cos(q[2]), math.sin(q[2])
         turning = (v[0] * cos + v[1] * sin) * v[2]
         return {"edge.force": float(self.m * (turning + G * math.sin(self.beta) * sin))}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.60) θ = ω t, u = u₀ + (s/ω) sin θ, s = g sin β: with u₀ = 0 a cycloid,
 
@@ -66,32 +62,22 @@ class KnifeEdge(Mode):
         u = self.u0 + s / w * math.sin(theta)
         return np.array([x, y, theta]), np.array([u * math.cos(theta), u * math.sin(theta), w])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (ẋ² + ẏ²) + ½ J θ̇² [J]."""
         return self.m * (v[0] ** 2 + v[1] ** 2) / 2 + self.J * v[2] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −m g x sin β [J]."""
         return -self.m * G * q[0] * math.sin(self.beta)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) −ẋ sin θ + ẏ cos θ = 0: row (1, 3)."""
         return np.array([[-np.sin(q[2]), np.cos(q[2]), 0.0]])
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven, (1,)."""
-        return np.zeros(1)
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) the coordinates themselves."""
         return {"blade": (q[0], q[1], q[2], v[0], v[1], v[2])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) of the weight what points down the slope; the plane carries the rest."""
         return [Load("blade", (float(q[0]), float(q[1])), (self.m * G * math.sin(self.beta), 0.0))]

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Vector
 from ..quadrature import integral
 from .blade_on_plane import BladeOnPlane
@@ -33,7 +32,6 @@ class Sleigh(BladeOnPlane):
         """P at the origin, gliding along x."""
         return np.zeros(3), np.array([self.v0, 0.0, self.w0])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) u̇ = a ω², (J + m a²) ω̇ = −m a u ω; P has u̇ along the blade, u ω across, (3,)."""
         cos, sin = math.cos(q[2]), math.sin(q[2])
@@ -42,14 +40,12 @@ class Sleigh(BladeOnPlane):
         omega_dot = -self.m * self.a * u * omega / (self.J + self.m * self.a**2)
         return np.array([u_dot * cos - across * sin, u_dot * sin + across * cos, omega_dot])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ = m (u ω + a ω̇) = m J u ω/(J + m a²) [N], to the left of the blade."""
         u = v[0] * math.cos(q[2]) + v[1] * math.sin(q[2])
         share = self.J / (self.J + self.m * self.a**2)
         return {"blade.force": float(self.m * share * u * v[2])}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.67) u = V tanh τ, k ω = V/cosh τ, θ = (k/a) (gd τ − gd τ₀), τ̇ = a V/k².
 
@@ -74,15 +70,9 @@ class Sleigh(BladeOnPlane):
         v = complex(along(np.array(t)))
         return np.array([path.real, path.imag, theta]), np.array([v.real, v.imag, omega])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) −ẋ sin θ + ẏ cos θ = 0: row (1, 3)."""
         return np.array([[-np.sin(q[2]), np.cos(q[2]), 0.0]])
-
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven, (1,)."""
-        return np.zeros(1)
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The blade, which holds P across itself."""

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import MOVING, Array, Cut, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -52,7 +51,6 @@ class TiltingRing(Mode):
         roll = self.w2 - self.w3 * math.tan(self.beta0)
         return q, np.array([self.R * roll, 0.0, self.w1, self.w2, self.w3])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.33) about the centre, without the force (2.23) m (r̈_c − g) at the rim: v̇ (5,).
 
@@ -75,13 +73,11 @@ class TiltingRing(Mode):
         c, s = math.cos(theta), math.sin(theta)
         return np.array([along * c - left * s, along * s + left * c, w1_dot, w2_dot, w3_dot])
 
-    @equation
     def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.4) ω₁ = β̇, ω₂ = φ̇ + θ̇ sin β, ω₃ = θ̇ cos β, solved: q̇ (5,)."""
         cos, tan = np.cos(q[3]), np.tan(q[3])
         return np.array([v[0], v[1], v[4] / cos, v[2], v[3] - v[4] * tan])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) F = m (r̈_c − g) [N], ṙ_c = R (ω₂, −ω₁, 0) in the axes of v: the floor on the disk.
 
@@ -101,7 +97,6 @@ class TiltingRing(Mode):
             "touch.normal": axle * sin + steep * cos,
         }
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.19) A steady motion: θ̇, β and φ̇ stay, and it rolls along a circle or a line.
 
@@ -123,7 +118,6 @@ class TiltingRing(Mode):
         u = [self.R * roll * math.cos(theta), self.R * roll * math.sin(theta)]
         return np.array(q), np.array([*u, self.w1, self.w2, self.w3])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m ṙ_c² + ½ (A β̇² + C (φ̇ + θ̇ sin β)² + A (θ̇ cos β)²) [J].
 
@@ -138,25 +132,17 @@ class TiltingRing(Mode):
         spin = A * (beta_dot**2 + (theta_dot * cos) ** 2) + C * (phi_dot + theta_dot * sin) ** 2
         return (self.m * (x_c_dot**2 + y_c_dot**2 + z_c_dot**2) + spin) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g R cos β [J]."""
         return self.m * G * self.R * np.cos(q[3])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.19) ẋ − R φ̇ cos θ = 0, ẏ − R φ̇ sin θ = 0, φ̇ = ω₂ − ω₃ tan β: rows (2, 5) on v."""
+        """(2.15), (2.19) ẋ − R φ̇ cos θ = 0, ẏ − R φ̇ sin θ = 0, φ̇ = ω₂ − ω₃ tan β: (2, 5) on v."""
         R, s, c, tan = self.R, np.sin(q[2]), np.cos(q[2]), np.tan(q[3])
         return np.array(
             [[1.0, 0.0, 0.0, -R * c, R * c * tan], [0.0, 1.0, 0.0, -R * s, R * s * tan]]
         )
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven, (2,)."""
-        return np.zeros(2)
-
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x + R sin β sin θ, y − R sin β cos θ, R cos β); E₁ by half angles.
 
@@ -181,7 +167,6 @@ class TiltingRing(Mode):
             )
         }  # fmt: skip
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight m g at the centre."""
         x, y, z, *_ = self.poses(t, q, v)["disk"]
@@ -212,7 +197,6 @@ class TiltingDisk(System):
     def __post_init__(self) -> None:
         object.__setattr__(self, "modes", {MOVING: self._ring()})
 
-    @equation
     def _ring(self) -> TiltingRing:
         """(2.32) J₁₁ = J₃₃ = m R²/4, J₂₂ = m R²/2 about the axle [kg m²] (Exercise 2.2)."""
         A, C = self.m * self.R**2 / 4, self.m * self.R**2 / 2
@@ -224,7 +208,6 @@ class TiltingDisk(System):
         """As the ring starts."""
         return MOVING, *self.modes[MOVING].start()
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.19) As the ring knows it: of a steady motion."""
         return self.modes[MOVING].closed_form(t)

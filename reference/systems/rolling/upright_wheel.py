@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Vector
 from .wheel_on_plane import G, WheelOnPlane
 
@@ -18,19 +17,16 @@ from .wheel_on_plane import G, WheelOnPlane
 class UprightWheel(WheelOnPlane):
     """Thin disk that starts with φ̇ = w and θ̇ = Omega [rad/s]."""
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) (J₂₂ + m R²) φ̈ = m g R sin α cos θ, θ̈ = 0 [rad/s²]; ẍ, ÿ from (2.20), (4,)."""
         slope = self.m * G * self.R * math.sin(self.alpha)
         phi_ddot = slope * math.cos(q[2]) / (self.axle() + self.m * self.R**2)
         return self.rolling(q, v, 0.0, phi_ddot)
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23), (2.27) as `held` has them, without drives [N, N m]."""
         return self.guide_reactions(q, v, self.accelerations(t, q, v))
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.20) φ̇ = w + K sin Ωt, ẋ + iẏ = R φ̇ e^{iΩt}: a circle and a drift across the slope.
 
@@ -52,15 +48,9 @@ class UprightWheel(WheelOnPlane):
         rates = np.array([R * phi_dot * cos, R * phi_dot * sin, Omega, phi_dot])
         return np.array([x, y, theta, phi]), rates
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
-        """(2.20) it rolls: rows (2, 4)."""
+        """(2.15), (2.20) it rolls: rows (2, 4)."""
         return np.array(self.rows(q))
-
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) nothing is driven, (2,)."""
-        return np.zeros(2)
 
 
 def _less_its_sine(x: float) -> float:

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 
@@ -39,23 +38,19 @@ class WheelFromAbove(Mode):
         """At the origin, rolling down the slope."""
         return np.zeros(3), np.array([self.u0, self.w0])
 
-    @equation
     def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.20) ẋ = u cos θ, ẏ = u sin θ, θ̇ = ω, (3,)."""
         return np.array([v[0] * np.cos(q[2]), v[0] * np.sin(q[2]), v[1]])
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.80) u̇ = g sin α cos θ, ω̇ = 0, (2,)."""
         return np.array([self.gravity * math.sin(self.alpha) * math.cos(q[2]), 0.0])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) λ = M (u ω + g sin α sin θ) [N], to the left of the edge."""
         down = self.gravity * math.sin(self.alpha) * math.sin(q[2])
         return {"edge.force": float(self.M * (v[0] * v[1] + down))}
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.20) θ = ω t, u = u₀ + k sin θ, k = (g/ω) sin α; with z = e^{iωt}
 
@@ -70,28 +65,23 @@ class WheelFromAbove(Mode):
         path = self.u0 / (1j * w) * (z - 1) + s / (2j * w) * ((z * z - 1) / (2j * w) - t)
         return np.array([path.real, path.imag, w * t]), np.array([self.u0 + s / w * z.imag, w])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ M (ẋ² + ẏ²) + ½ J θ̇² [J], of the rates q̇, here called v."""
         return self.M * (v[0] ** 2 + v[1] ** 2) / 2 + self.J * v[2] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −M g x sin α [J]."""
         return -self.M * self.gravity * q[0] * math.sin(self.alpha)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) no row is left of v, (0, 2)."""
         return np.zeros((0, 2))
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) the coordinates themselves, and their rates."""
         x_dot, y_dot, omega = self.rates(t, q, v)
         return {"wheel": (q[0], q[1], q[2], x_dot, y_dot, omega)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) of the weight what points down the slope."""
         down = self.M * self.gravity * math.sin(self.alpha)

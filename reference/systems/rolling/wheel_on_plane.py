@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -39,17 +38,14 @@ class WheelOnPlane(Mode):
         """At the origin, rolling along x with R w [m/s]."""
         return np.zeros(4), np.array([self.R * self.w, 0.0, self.Omega, self.w])
 
-    @equation
     def axle(self) -> float:
         """(2.32) J₂₂ = m R²/2 [kg m²] about the axle (Exercise 2.2, there the third axis)."""
         return self.m * self.R**2 / 2
 
-    @equation
     def diameter(self) -> float:
         """(2.32) J₁₁ = J₃₃ = m R²/4 [kg m²] about any diameter (Exercise 2.2)."""
         return self.m * self.R**2 / 4
 
-    @equation
     def rolling(self, q: Array, v: Array, theta_ddot: float, phi_ddot: float) -> Array:
         """(2.20) ẍ = R (φ̈ cos θ − φ̇ θ̇ sin θ), ÿ = R (φ̈ sin θ + φ̇ θ̇ cos θ) [m/s²], q̈ (4,)."""
         cos, sin = math.cos(q[2]), math.sin(q[2])
@@ -57,7 +53,6 @@ class WheelOnPlane(Mode):
         x_ddot, y_ddot = forward * cos - left * sin, forward * sin + left * cos
         return np.array([x_ddot, y_ddot, theta_ddot, phi_ddot])
 
-    @equation
     def guide_reactions(self, q: Array, v: Array, a: Array) -> dict[str, float]:
         """(2.23), (2.27) F = m (r̈_c − g), M = Ḋ_c + R e_z × F: what floor and guide exert [N, N m].
 
@@ -82,24 +77,20 @@ class WheelOnPlane(Mode):
             "upright.mz": self.diameter() * float(a[2]),
         }
 
-    @equation
     def rows(self, q: Vector) -> list[list[Any]]:
         """(2.20) ẋ − R φ̇ cos θ = 0, ẏ − R φ̇ sin θ = 0: two rows of 4, λ = (F_x, F_y)."""
         x, y = -self.R * np.cos(q[2]), -self.R * np.sin(q[2])
         return [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y]]
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m (ẋ² + ẏ²) + ½ J₃₃ θ̇² + ½ J₂₂ φ̇² [J]."""
         turning = self.diameter() * v[2] ** 2 + self.axle() * v[3] ** 2
         return self.m * (v[0] ** 2 + v[1] ** 2) / 2 + turning / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g (R cos α − x sin α) [J]."""
         return self.m * G * (self.R * math.cos(self.alpha) - q[0] * math.sin(self.alpha))
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x, y, R); E₁ by the turns θ about z, then φ about the axle.
 
@@ -111,7 +102,6 @@ class WheelOnPlane(Mode):
         omega = (-v[2] * np.sin(q[3]), v[3], v[2] * np.cos(q[3]))
         return {"wheel": (q[0], q[1], self.R, *attitude, v[0], v[1], 0.0, *omega)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight m g, down the slope and onto it, at the centre."""
         down = (math.sin(self.alpha), 0.0, -math.cos(self.alpha))

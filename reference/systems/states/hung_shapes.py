@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.inertia import bar, disk, rotated, steiner, tensor
 from ...laws.momentum import axis_moment, center
 from ...stated import Stated
@@ -58,7 +57,6 @@ class HungShapes(Stated):
 
     coordinates = ("rod_hinge.angle", "wheel_hinge.angle", "ball_hinge.angle", "box_hinge.angle")
 
-    @equation
     def bodies(self) -> dict[str, Hung]:
         """(2.36) the disk's principal axes turn with its axle; the hinge is at −a from C."""
         length = np.hypot(self.s, self.c)
@@ -75,7 +73,6 @@ class HungShapes(Stated):
             "box": Hung(self.m_box, box, a, e[1]),
         }
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k, turned about u, and (2.6) their rates."""
         found: dict[str, Pose] = {}

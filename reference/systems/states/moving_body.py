@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.inertia import steiner
 from ...laws.momentum import (
     angular_momentum,
@@ -46,7 +45,6 @@ class MovingBody(Stated):
     coordinates = ("held.x", "held.y", "held.z", "held.psi", "held.theta", "held.phi")
 
     @property
-    @equation
     def J(self) -> Array:
         """(2.32) the matrix of moments and products of inertia about C, (3, 3)."""
         return np.array(
@@ -62,7 +60,6 @@ class MovingBody(Stated):
         E, E_dot = frame(*q[3:]), np.tensordot(v[3:], np.array(slopes(*q[3:])), 1)
         return E, angular_velocity(E, E_dot)
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_i and E_ij of six parameters, (2.6) ṙ_c = ṙ_Ω + ω × a."""
         E, omega = self._kinematics(q, v)

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.momentum import angular_momentum, momentum, of_center, spin_momentum
 from ...laws.rotation import point, velocity
 from ...stated import Stated
@@ -41,7 +40,6 @@ class PlanarBodies(Stated):
             (self.m_box, self.m_box * (self.w**2 + self.h**2) / 12),
         )
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_i and E_ij of each free body by its own parameters."""
         rows = zip(NAMES, np.reshape(q, (3, 3)), np.reshape(v, (3, 3)), strict=True)

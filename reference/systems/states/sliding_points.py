@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...laws.friction import Dry, coulomb, power_law, stiction, viscous
 from ...laws.momentum import momentum
 from ...stated import Stated
@@ -44,7 +43,6 @@ class SlidingPoints(Stated):
 
     coordinates = ("ball.x", "ball.y", "sled.x", "sled.y", "sled.angle")
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_i and E_ij of each free body by its own parameters."""
         return {"ball": (*q[:2], 0.0, *v[:2], 0.0), "sled": (*q[2:], *v[2:])}

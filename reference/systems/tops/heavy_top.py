@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 from ..elliptic import Amplitude, amplitude, first, third
 
@@ -44,7 +44,6 @@ class HeavyTop(Mode):
         J = np.diag([self.A, self.A, self.C])
         object.__setattr__(self, "masses", {"top": Mass(self.m, J)})
 
-    @equation
     def _A_O(self) -> float:
         """(2.35) A_O = A + m l² [kg m²], about any axis through O across that of the top."""
         return self.A + self.m * self.l**2
@@ -56,7 +55,6 @@ class HeavyTop(Mode):
         v = [psi_dot, self.w1, self.w3 - psi_dot * cos]
         return np.array([0.0, self.theta0, 0.0]), np.array(v)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.33) A_O θ̈ = (A_O ψ̇ cos θ − C ω₃) ψ̇ sin θ + m g l sin θ, ω̇₃ = 0 [rad/s²], (3,).
 
@@ -70,7 +68,6 @@ class HeavyTop(Mode):
         psi_ddot = (D3 - 2 * A_O * psi_dot * cos) * theta_dot / (A_O * sin)
         return np.array([psi_ddot, theta_ddot, psi_dot * theta_dot * sin - psi_ddot * cos])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) F = m (r̈_c − g) [N], r_c = l (sin θ sin ψ, −sin θ cos ψ, cos θ): O on the top."""
         psi, theta, _ = q.tolist()
@@ -88,7 +85,6 @@ class HeavyTop(Mode):
             "pivot.fz": ml * z_ddot + self.m * G,
         }
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.27) cos θ = u₁ + (u₂ − u₁) sn²(λ t + τ₀); ψ and φ by integrals of the third kind.
 
@@ -99,18 +95,15 @@ class HeavyTop(Mode):
         nutation = Nutation.of(A_O, self.C, self.m * G * self.l, self.theta0, w)
         return None if nutation is None else nutation.at(t)
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ A_O (θ̇² + ψ̇² sin² θ) + ½ C (φ̇ + ψ̇ cos θ)² [J]."""
         across = v[1] ** 2 + (v[0] * np.sin(q[1])) ** 2
         return (self._A_O() * across + self.C * (v[2] + v[0] * np.cos(q[1])) ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g l cos θ [J]."""
         return self.m * G * self.l * np.cos(q[1])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = l (sin θ sin ψ, −sin θ cos ψ, cos θ); E₁ by half angles, smooth in all three.
 
@@ -134,7 +127,6 @@ class HeavyTop(Mode):
             )
         }  # fmt: skip
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight m g at the centre."""
         x, y, z, *_ = self.poses(t, q, v)["top"]
@@ -153,7 +145,7 @@ Three = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Nutation:
+class Nutation(Numbered):
     """u = cos θ between u₁ and u₂, the roots of u̇² = (1 − u²)(ε − β (u − u₀)) − (b − a u)².
 
     Goldstein, Classical Mechanics, § 5.7: a = C ω₃/A_O, b = D_z/A_O, β = 2 m g l/A_O; here
@@ -198,7 +190,6 @@ class Nutation:
             math.sqrt((far - high) / width), math.sqrt(beta * width) / 2, phase,
         )  # fmt: skip
 
-    @equation
     def at(self, t: float) -> tuple[Array, Array]:
         """(2.27) D_z and D₃ stay: ψ̇ = (b − a u)/(1 − u²), φ̇ = ω₃ − ψ̇ u; q and v."""
         am = amplitude(self.rate * t + first(self.phase, self.k1), self.k1)

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -34,7 +33,6 @@ class PairedRotors(Mode):
         object.__setattr__(self, "masses", masses)
 
     @property
-    @equation
     def _J(self) -> tuple[float, float]:
         """(2.34) J₃₃ = ½ m R² of each [kg m²]."""
         return self.m1 * self.R1**2 / 2, self.m2 * self.R2**2 / 2
@@ -43,20 +41,17 @@ class PairedRotors(Mode):
         """Both turn as one."""
         return np.zeros(2), np.full(2, self.w0)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34) J₁ φ̈₁ = −M sin Ω t, J₂ φ̈₂ = M sin Ω t, (2,)."""
         J1, J2 = self._J
         M = self.M * math.sin(self.Omega * t)
         return np.array([-M / J1, M / J2])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) each pin holds its weight: F = (0, m g) [N]."""
         weights = {"first.fy": self.m1 * G, "second.fy": self.m2 * G}
         return {"first.fx": 0.0, "second.fx": 0.0} | weights
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.27) the angular momenta: J φ̇ = J w₀ ∓ M (1 − cos Ω t)/Ω."""
         given = self.M * (1 - math.cos(self.Omega * t)) / self.Omega
@@ -64,24 +59,20 @@ class PairedRotors(Mode):
         J = np.array([-0.5 * self.m1 * self.R1 * self.R1, 0.5 * self.m2 * self.R2 * self.R2])
         return self.w0 * t + gone / J, self.w0 + given / J
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ J₁ φ̇₁² + ½ J₂ φ̇₂² [J]."""
         return self.m1 * self.R1**2 / 4 * v[0] ** 2 + self.m2 * self.R2**2 / 4 * v[1] ** 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = M sin Ω t ∂(φ₂ − φ₁)/∂q [N m], (2,)."""
         return self.M * np.sin(self.Omega * t) * np.array([-1.0, 1.0])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) the centres stay at the axle, angle = φ."""
         still = 0.0 * q[0]
         turns = zip(("one", "two"), q, v, strict=True)
         return {body: (still, still, phi, still, still, rate) for body, phi, rate in turns}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights, and the torque on both."""
         M = self.M * math.sin(self.Omega * t)

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 G = 9.80665  # m/s²
@@ -47,7 +46,6 @@ class SprungGimbal(Mode):
         object.__setattr__(self, "masses", {"globe": Mass(self.m, self.J * np.eye(3))})
 
     @property
-    @equation
     def J(self) -> float:
         """(2.30) J = 2/5 m R² [kg m²] about any axis through the centre."""
         return 2 * self.m * self.R**2 / 5
@@ -66,20 +64,17 @@ class SprungGimbal(Mode):
         """As the case says."""
         return np.array([self.theta, self.phi]), np.array([self.w1, self.w2])
 
-    @equation
     def _torques(self, t: Any, q: Any, v: Any) -> tuple[Any, Any]:
         """(2.45)–(2.50) what spring, damper and motor exert about n₁ and about n₂ [N m]."""
         one = self.M * np.sin(self.Omega * t) - self.c1 * (q[0] - self.theta0) - self.d1 * v[0]
         return one, -self.c2 * (q[1] - self.phi0) - self.d2 * v[1]
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) J (θ̈ + κ φ̈) = M₁, J (κ θ̈ + φ̈) = M₂, (2,)."""
         one, two = self._torques(t, q, v)
         J = self.J * (1 - self.kappa**2)
         return np.array([(one - self.kappa * two) / J, (two - self.kappa * one) / J])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) F = (0, 0, m g) [N]; (2.27) M = J (θ̈ n₁ + φ̈ n₂ + θ̇ φ̇ n₁ × n₂) [N m], with what
         springs, dampers and the motor exert.
@@ -99,7 +94,6 @@ class SprungGimbal(Mode):
         """n₂ in ground axes."""
         return self.sine * np.cos(q[0]), self.sine * np.sin(q[0]), self.kappa
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.44) q = q₀ + Im (A e^{iΩt}) + V e^{Λt} V⁻¹ (…), Λ and V of S in ẏ = S y.
 
@@ -118,27 +112,22 @@ class SprungGimbal(Mode):
         y = rest + (steady * np.exp(1j * self.Omega * t)).imag + free.real
         return y[:2], y[2:]
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ J (θ̇² + 2 κ θ̇ φ̇ + φ̇²) [J]."""
         return self.J * (v[0] ** 2 + 2 * self.kappa * v[0] * v[1] + v[1] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c₁ (θ − θ₀)² + ½ c₂ (φ − φ₀)² [J]."""
         return self.c1 * (q[0] - self.theta0) ** 2 / 2 + self.c2 * (q[1] - self.phi0) ** 2 / 2
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = ½ d₁ θ̇² + ½ d₂ φ̇² [W]."""
         return self.d1 * v[0] ** 2 / 2 + self.d2 * v[1] ** 2 / 2
 
-    @equation
     def Q4(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.50) Q = (M sin Ω t, 0) [N m], (2,)."""
         return np.array([self.M * np.sin(self.Omega * t), 0.0 * t])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) the centre stays; E₁ by the turns θ about n₁, then φ about n₂, which are told too.
 
@@ -155,7 +144,6 @@ class SprungGimbal(Mode):
         globe = (still, still, still, *attitude, still, still, still, *omega)
         return {"globe": globe, "gimbal.theta": (q[0],), "gimbal.phi": (q[1],)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, and M₁ about n₁ and M₂ about n₂ as one moment, in the plane of both."""
         one, two = self._torques(t, q, v)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ...system import Array, Load, Mass, Mode, Pose, Vector
 from ..elliptic import Amplitude, amplitude, first, third
 
@@ -56,7 +56,6 @@ class TorqueFree(Mode):
         v = [self.vx, self.vy, self.vz, self.w1, self.w2, self.w3]
         return np.array([0.0, 0.0, 0.0, *e]), np.array(v)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.33) A ω̇₁ = (B − C) ω₂ ω₃, B ω̇₂ = (C − A) ω₃ ω₁, C ω̇₃ = (A − B) ω₁ ω₂; r̈ = g, (6,)."""
         A, B, C = self.A, self.B, self.C
@@ -64,7 +63,6 @@ class TorqueFree(Mode):
         spin = [(B - C) / A * w2 * w3, (C - A) / B * w3 * w1, (A - B) / C * w1 * w2]
         return np.array([0.0, 0.0, -self.gravity, *spin])
 
-    @equation
     def rates(self, t: Any, q: Vector, v: Vector) -> Vector:
         """(2.5) ė = ½ e ∘ (0, ω), ω in body axes; ṙ as it is: q̇ (7,)."""
         w, x, y, z = q[3:]
@@ -75,7 +73,6 @@ class TorqueFree(Mode):
         ]  # fmt: skip
         return np.concatenate([v[:3], np.array(e_dot) / 2])
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """(2.33) Jacobi's solution; the attitude by the precession about D, which stays.
 
@@ -89,7 +86,6 @@ class TorqueFree(Mode):
         v = [self.vx, self.vy, self.vz - self.gravity * t]
         return np.array([*r, *solution.attitude(t)]), np.array([*v, *solution.omega(t)])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m ṙ² + ½ (A ω₁² + B ω₂² + C ω₃²), (0, ω) = 2 ē ∘ ė/|e|² [J]."""
         w, x, y, z = q[3:]
@@ -101,27 +97,20 @@ class TorqueFree(Mode):
         spin = self.A * w1**2 + self.B * w2**2 + self.C * w3**2
         return self.m * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2) / 2 + 2 * spin / size**2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g z [J]."""
         return self.m * self.gravity * q[2]
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = r, E₁ by e/|e|: its length, which rounding changes, has no meaning."""
         e = q[3:]
         size = np.sqrt(e[0] ** 2 + e[1] ** 2 + e[2] ** 2 + e[3] ** 2)
         return {"body": (*q[:3], *(e / size), *v)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight m g at the centre."""
         x, y, z = q[:3].tolist()
         return [Load("body", (x, y, z), (0.0, 0.0, -self.m * self.gravity))]
-
-    def cuts(self, t: float, q: Array) -> list[Any]:
-        """Nothing holds it."""
-        return []
 
 
 # Jacobi's solution of Euler's equations without a moment: the closed form of `torque_free`.
@@ -132,7 +121,7 @@ Quaternion = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
-class Polhode:
+class Polhode(Numbered):
     """ω_s = σ c dn, ω_p = a cn, ω_m = −σ b sn of λ t + τ₀: Landau and Lifshitz, Mechanics, § 37.
 
     s: the axis (1 or 3) whose ω never changes its sign σ; m: axis 2, the middle one; p: the other.
@@ -174,19 +163,16 @@ class Polhode:
         moments = (Ip, Im, Is)
         return Polhode(moments, about_first, sigma, (a, b, c), k1, rate, phase, D, given)
 
-    @equation
     def omega(self, t: float) -> Three:
         """(2.33) ω [rad/s] in body axes."""
         p, m, s = self._at(self._amplitude(t))
         return (s, m, p) if self.about_first else (p, m, s)
 
-    @equation
     def attitude(self, t: float) -> Quaternion:
         """(2.27) D stays in the ground's axes: the quaternion from body axes to those."""
         w, x, y, z = self._about_D(0.0)
         return _product(_product(_zxz(*self.given), (w, -x, -y, -z)), self._about_D(t))
 
-    @equation
     def _about_D(self, t: float) -> Quaternion:
         """(2.27) From body axes to axes with z along D.
 

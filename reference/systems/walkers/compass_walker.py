@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -45,7 +44,6 @@ class _Stance(Mode):
         """The entries of q or v in their order, from those of the standing and swinging leg."""
         return [x, s, w] if self.k == 0 else [x, w, s]
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) A s̈ − C ẅ = N sin(s − w) ẇ² + g (M l + m (l − c) + m l) sin(s + γ),
         B ẅ − C s̈ = −N sin(s − w) ṡ² − m g c sin(w + γ), N = m c l, C = N cos(s − w); (3,).
@@ -69,14 +67,12 @@ class _Stance(Mode):
         return stands, self._along(-p.c, w, w_dot, hip), hip
 
     @staticmethod
-    @equation
     def _along(r: float, a: Any, a_dot: Any, start: tuple[Any, ...]) -> tuple[Any, ...]:
         """(2.6) r up a leg from a point that moves."""
         x, y, x_dot, y_dot = start
         sin, cos = np.sin(a), np.cos(a)
         return x + r * sin, y + r * cos, x_dot + r * a_dot * cos, y_dot - r * a_dot * sin
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ Σ m ṙ_c² + ½ J (ȧ² + ḃ²) [J]."""
         p, places = self.walker, self._places(q, v)
@@ -84,7 +80,6 @@ class _Stance(Mode):
         moving = sum(m * (u * u + w * w) for m, (_, _, u, w) in zip(masses, places, strict=True))
         return moving / 2 + p.J * (v[1] ** 2 + v[2] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = Σ m g (y cos γ − x sin γ) [J]."""
         p, places = self.walker, self._places(q, q)  # of which the rates are not used
@@ -93,17 +88,10 @@ class _Stance(Mode):
         high = (m * (y * cos - x * sin) for m, (x, y, *_) in zip(masses, places, strict=True))
         return G * sum(high)
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) ẋ = 0: the foot stands; λ is its friction."""
         return np.array([[1.0, 0.0, 0.0]])
 
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(1)
-
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) m r̈_c = m g + F [N]: of the floor on the foot that stands, of each leg on the hip.
 
@@ -130,7 +118,6 @@ class _Stance(Mode):
             for name, x in zip(names["hip" in part], force, strict=True)
         }
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k; a leg's angle is that of a bar from foot to hip: 90° − a."""
         stands, swings, hip = self._places(q, v)
@@ -141,7 +128,6 @@ class _Stance(Mode):
         x, y, x_dot, y_dot = hip
         return {**found, "hip": (x, y, 0.0, x_dot, y_dot, 0.0)}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights, in the axes of the slope."""
         found = []
@@ -190,19 +176,16 @@ class CompassWalker(System):
         return self.l / 2
 
     @property
-    @equation
     def J(self) -> float:
         """(2.32) m l²/12 [kg m²] about the leg's centre (Exercise 2.3)."""
         return self.m * self.l**2 / 12
 
     @property
-    @equation
     def about_foot(self) -> float:
         """(2.35) A = (M + m) l² + m (l − c)² + J [kg m²]: the swinging leg counts at the hip."""
         return (self.M + self.m) * self.l**2 + self.m * (self.l - self.c) ** 2 + self.J
 
     @property
-    @equation
     def about_hip(self) -> float:
         """(2.35) B = m c² + J [kg m²]."""
         return self.m * self.c**2 + self.J
@@ -222,7 +205,6 @@ class CompassWalker(System):
 
         return (Guard("strikes", above, lambda t, q, v: self.struck(k, q, v)),)
 
-    @equation
     def struck(self, k: int, q: Array, v: Array) -> tuple[str, Array, Array]:
         """(2.27) The other leg stands: moments of momentum about its foot, and of the old one about
         the hip, are conserved. With the rates ṡ, ẇ of the legs that stand and swing, before, after:
@@ -243,7 +225,6 @@ class CompassWalker(System):
         (a, a_dot), (b, b_dot) = legs if k == 1 else reversed(legs)
         return f"{LEGS[1 - k]} stands", np.array([x, a, b]), np.array([0.0, a_dot, b_dot])
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) F_N > 0 and |F_fr| ≤ μ F_N."""
         forces = self.modes[mode].reactions(t, q, v)

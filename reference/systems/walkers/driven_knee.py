@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Load, Mass, Mode, Pose, Vector
 
 
@@ -37,12 +36,10 @@ class DrivenKnee(Mode):
         """Straight, and at rest as the drive."""
         return np.zeros(1), np.zeros(1)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.15) differentiated: φ̈ = A Ω cos Ω t, (1,)."""
         return np.array([self.A * self.Omega * math.cos(self.Omega * t)])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.60) M = λ = ⅓ m l² φ̈ + c φ + d φ̇ [N m], and F = m r̈_c [N]."""
         (phi_dd,) = self.accelerations(t, q, v).tolist()
@@ -54,44 +51,36 @@ class DrivenKnee(Mode):
             "knee.fy": arm * (phi_dd * cos - phi_d**2 * sin),
         }
 
-    @equation
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """(2.15) φ = (A/Ω) (1 − cos Ω t)."""
         phi = self.A / self.Omega * (1 - math.cos(self.Omega * t))
         return np.array([phi]), np.array([self.A * math.sin(self.Omega * t)])
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ⅙ m l² φ̇² [J]."""
         return self.m * self.l**2 / 6 * v[0] ** 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = ½ c φ² [J]: what the spring stores, and returns."""
         return self.c * q[0] ** 2 / 2
 
-    @equation
     def D(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.46) D = ½ d φ̇² [W]."""
         return self.d * v[0] ** 2 / 2
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) φ̇ = g: the row (1, 1)."""
         return np.ones((1, 1)) + 0.0 * q[0]
 
-    @equation
     def g(self, t: Any, q: Vector) -> Vector:
         """(2.15) A sin Ω t [rad/s], (1,)."""
         return np.array([self.A * np.sin(self.Omega * t)])
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = ½ l (cos φ, sin φ), angle = φ."""
         x, y = self.l / 2 * np.cos(q[0]), self.l / 2 * np.sin(q[0])
         return {"shank": (x, y, q[0], -v[0] * y, v[0] * x, v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.27) spring and damper, as a moment on the shank."""
         x, y = self.l / 2 * math.cos(q[0]), self.l / 2 * math.sin(q[0])

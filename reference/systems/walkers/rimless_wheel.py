@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
+from ...coverage import Numbered
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 from ..quadrature import integral
 
@@ -25,7 +25,7 @@ PANELS = 8  # of 16 nodes: 1e-14 s, but where a step takes many times the shorte
 
 
 @dataclass(frozen=True)
-class SpokeSteps:
+class SpokeSteps(Numbered):
     """n spokes of l [m], ρ = J/(m l²), slope gamma [rad]; ω [rad/s] is a rate after a strike."""
 
     n: float
@@ -39,12 +39,10 @@ class SpokeSteps:
         return 2 * math.pi / self.n
 
     @property
-    @equation
     def kept(self) -> float:
         """(2.27) η = 1 − 2 sin² α/(1 + ρ): of l φ̇ the part 1 − cos 2α cannot go on."""
         return 1 - 2 * math.sin(self.between / 2) ** 2 / (1 + self.rho)
 
-    @equation
     def gained(self, s: Any) -> Any:
         """(2.51) φ̇² − ω² [rad²/s²] at the angle s after a strike: ½ (1 + ρ) l φ̇² = g · fall.
 
@@ -53,12 +51,10 @@ class SpokeSteps:
         fall = 2 * np.sin(self.gamma - self.between / 2 + s / 2) * np.sin(s / 2)
         return 2 * G / self.l / (1 + self.rho) * fall
 
-    @equation
     def next_rate(self, omega: float) -> float:
         """(2.27) ω⁺ = η √(ω² + gained in a step) [rad/s]."""
         return self.kept * math.sqrt(omega**2 + float(self.gained(self.between)))
 
-    @equation
     def limit_cycle(self) -> float:
         """(2.27) ω* = η √(D/(1 − η²)) [rad/s], D gained in a step; its multiplier is η².
 
@@ -71,18 +67,15 @@ class SpokeSteps:
         slowest = max(0.0, self.between / 2 - self.gamma)
         return omega**2 + float(self.gained(slowest)) > 0.0
 
-    @equation
     def rate(self, omega: float, s: Any) -> Any:
         """(2.51) φ̇ = √(ω² + gained) [rad/s] at the angle s after a strike."""
         return np.sqrt(omega**2 + self.gained(s))
 
-    @equation
     def lasts(self, omega: float, s: float | None = None) -> float:
         """(2.51) T = ∫ ds/φ̇ [s] over a step, or up to the angle s in it."""
         end = self.between if s is None else s
         return float(integral(lambda s: 1 / self.rate(omega, s), end, PANELS))
 
-    @equation
     def angle(self, omega: float, tau: float) -> float:
         """(2.51) The angle s at which T = τ: Newton's method, T' = 1/φ̇ > 0."""
         s = self.between * tau / self.lasts(omega)
@@ -133,7 +126,6 @@ class _Spoke(Mode):
         """θ [rad] against the normal of the slope."""
         return phi - (2 * self.k - 1) * self.wheel.alpha
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.34) (J + m l²) φ̈ = m g l sin(θ + γ), 0 at rest [rad/s²], (1,): Steiner about the tip.
 
@@ -144,7 +136,6 @@ class _Spoke(Mode):
         w = self.wheel
         return np.array([w.m * G * w.l * math.sin(self._lean(float(q[0])) + w.gamma) / w.about_tip])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) F = m r̈_c − m g [N], r̈_c = l φ̈ (cos θ, −sin θ) − l φ̇² (sin θ, cos θ)."""
         w, theta, phi_dot = self.wheel, self._lean(float(q[0])), float(v[0])
@@ -155,31 +146,22 @@ class _Spoke(Mode):
         along, across = G * math.sin(w.gamma), -G * math.cos(w.gamma)
         return {"feet.tangent": w.m * (x_ddot - along), "feet.normal": w.m * (y_ddot - across)}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ (J + m l²) φ̇² [J]."""
         return self.wheel.about_tip * v[0] ** 2 / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g (y_c cos γ − x_c sin γ) [J]."""
         w, (x, y) = self.wheel, self._hub(q)
         return w.m * G * (y * math.cos(w.gamma) - x * math.sin(w.gamma))
 
-    @equation
     def f(self, t: Any, q: Vector) -> Vector:
         """(2.14) φ = 2k α at rest on spokes k and k + 1 [rad]."""
         return np.array([q[0] - 2 * self.k * self.wheel.alpha] if self.rests else [])
 
-    @equation
     def f_a(self, t: Any, q: Vector) -> Vector:
         """(2.15) φ̇ = 0 at rest."""
         return np.ones((1, 1)) if self.rests else np.zeros((0, 1))
-
-    @equation
-    def g(self, t: Any, q: Vector) -> Vector:
-        """(2.15) the floor does not move."""
-        return np.zeros(len(self.f_a(t, q)))
 
     def _tip(self) -> float:
         """x [m] of the tip of spoke k: each step is 2 l sin α long."""
@@ -190,14 +172,12 @@ class _Spoke(Mode):
         theta = self._lean(q[0])
         return self._tip() + self.wheel.l * np.sin(theta), self.wheel.l * np.cos(theta)
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x_c, y_c), angle = −φ."""
         theta, l = self._lean(q[0]), self.wheel.l
         x_dot, y_dot = l * v[0] * np.cos(theta), -l * v[0] * np.sin(theta)
         return {"wheel": (*self._hub(q), -q[0], x_dot, y_dot, -v[0])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the hub, in the axes of the slope."""
         w, (x, y) = self.wheel, self._hub(q)
@@ -255,13 +235,11 @@ class RimlessWheel(System):
         return math.pi / self.n
 
     @property
-    @equation
     def about_tip(self) -> float:
         """(2.35) J + m l² [kg m²]."""
         return self.J + self.m * self.l**2
 
     @property
-    @equation
     def eta(self) -> float:
         """(2.27) η = (J + m l² cos 2α)/(J + m l²): about the new tip nothing turns the wheel."""
         return (self.J + self.m * self.l**2 * math.cos(2 * self.alpha)) / self.about_tip
@@ -270,7 +248,6 @@ class RimlessWheel(System):
         """φ = 0 on spokes 0 and 1, φ̇ = w0."""
         return "spoke 1", np.zeros(1), np.array([self.w0])
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.27) `spoke 2 strikes` where the next spoke meets the floor, θ = ±α: φ̇ := η φ̇.
 
@@ -311,7 +288,6 @@ class RimlessWheel(System):
             return None
         return [(f"spoke {k} strikes", t) for k, t in enumerate(found, start=2)]
 
-    @equation
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F_fr| ≤ μ F_N and F_N > 0 where it stands, and no other tip in the floor."""
         forces = self.modes[mode].reactions(t, q, v)

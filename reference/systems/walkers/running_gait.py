@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Guard, Load, Pose, System, Vector
 from ..pendula.elastic_pendulum import ElasticPendulum
 
@@ -83,13 +82,11 @@ class _Runner(ElasticPendulum):
 
     body = "jumper"
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (x_k + λ cos φ, λ sin φ)."""
         x, *others = super().poses(t, q, v)[self.body]
         return {self.body: (self.foot + x, *others)}  # type: ignore[dict-item]
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, (2.82) spring F = −c (λ − λ₀) along itself, where the mass is."""
         x, y, *_ = self.poses(t, q, v)[self.body]

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Guard, Mode, System
 
 G = 9.80665  # m/s²
@@ -26,7 +25,6 @@ class _Stance(Mode):
 
     coordinates = ("theta", "phi")
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) θ̈ = k sin(θ − γ), φ̈ = θ̈ + θ̇² sin φ − k cos(θ − γ) sin φ, k = g/l; (2,)."""
         (theta, phi), (theta_dot, _), k = q.tolist(), v.tolist(), G / self.l
@@ -57,7 +55,6 @@ class SimplestWalker(System):
         q = np.array([theta, 2 * theta])
         return q, np.array([theta_dot, (1 - math.cos(2 * theta)) * theta_dot])
 
-    @equation
     def guards(self, mode: str) -> Sequence[Guard]:
         """(2.27) `strikes` where 2θ − φ falls through 0: θ := −θ, θ̇ := θ̇ cos 2θ.
 

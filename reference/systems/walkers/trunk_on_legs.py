@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ...coverage import equation
 from ...system import Array, Cut, Guard, Load, Mass, Mode, Pose, System, Vector
 
 G = 9.80665  # m/s²
@@ -38,14 +37,12 @@ class _Trunk(Mode):
     def __post_init__(self) -> None:
         object.__setattr__(self, "masses", {"trunk": Mass(self.m, self.J)})
 
-    @equation
     def leg(self, name: str, q: Vector) -> tuple[Any, Any, Any]:
         """(2.1) Δ = (s l (cos φ − 1), y + s l sin φ) from a leg's foot to its hip, and λ = |Δ|."""
         s = ENDS[name] * self.l
         x, y = s * (np.cos(q[1]) - 1.0), q[0] + s * np.sin(q[1])
         return x, y, np.sqrt(x * x + y * y)
 
-    @equation
     def _pushes(self, q: Array) -> Iterator[tuple[float, float, float]]:
         """(2.82) F_x, F_y of each leg that presses [N], and its moment M_c [N m]."""
         for name in self.legs:
@@ -55,35 +52,29 @@ class _Trunk(Mode):
             cos, sin = math.cos(q[1]), math.sin(q[1])
             yield push * x, push * y, s * push * (cos * y - sin * x)
 
-    @equation
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.23), (2.34) m ÿ = −m g + Σ F_y, J φ̈ = Σ s l (F_y cos φ − F_x sin φ), (2,)."""
         pushes = list(self._pushes(q))
         up, turning = sum(y for _, y, _ in pushes), sum(M for *_, M in pushes)
         return np.array([up / self.m - G, turning / self.J])
 
-    @equation
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) the guide holds against what the legs push along x [N]."""
         return {"guide.fx": -sum(x for x, *_ in self._pushes(q))}
 
-    @equation
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = ½ m ẏ² + ½ J φ̇² [J]."""
         return (self.m * v[0] ** 2 + self.J * v[1] ** 2) / 2
 
-    @equation
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = m g y + Σ ½ c (λ − λ₀)² [J]."""
         stored = sum(self.c * (self.leg(name, q)[2] - self.l0) ** 2 / 2 for name in self.legs)
         return self.m * G * q[0] + stored
 
-    @equation
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R₁ = (0, y), turned by φ."""
         return {"trunk": (0.0, q[0], q[1], 0.0, v[0], v[1])}
 
-    @equation
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the centre, (2.82) the legs at their hips."""
         found = [Load("trunk", (0.0, float(q[0])), (0.0, -self.m * G))]

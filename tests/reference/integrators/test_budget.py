@@ -1,13 +1,18 @@
-"""A motion that would never end ends with the budget, at the same evaluation everywhere."""
+"""A motion that would never end ends with the budget; and matrices are solved by one thread."""
 
 import numpy as np
 import pytest
+from given import scenes
 
+from textmech.reference import solve as door
 from textmech.reference.integrators import budget as purse
 from textmech.reference.integrators.budget import Endless, apart, budget, motion, spend, tries
 from textmech.reference.integrators.explicit import DormandPrince
 from textmech.reference.integrators.march import integrate
 from textmech.reference.integrators.now import NOW
+from textmech.reference.solve import _libraries, one_thread
+
+# A motion that would never end ends with the budget, at the same evaluation everywhere.
 
 SECOND = 1.0  # s an evaluation: the budget then counts them
 
@@ -141,3 +146,36 @@ def test_the_line_moves_while_ways_are_tried() -> None:
         said = [NOW.text() for _ in tries(lambda: iter(range(101)), 1, ())]
         assert said[100].startswith("the motion at 2 s, the ways to go on, at 100 of 101")
         assert NOW.text().startswith("the motion, at 2 of 5 s")
+
+
+# Matrices of a reference are small: what shares them among threads waits, and rounds otherwise.
+
+
+def counts() -> list[int]:
+    return [count() for count, _ in _libraries()]
+
+
+def test_there_is_one_within_and_afterwards_as_many_as_before() -> None:
+    for _, put in _libraries():
+        put(2)
+    before = counts()
+    with one_thread():
+        assert counts() == [1] * len(before)
+    assert counts() == before
+    with pytest.raises(ZeroDivisionError), one_thread():
+        raise ZeroDivisionError
+    assert counts() == before
+
+
+@pytest.mark.slow
+def test_a_reference_is_solved_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    if not _libraries():
+        pytest.skip("numpy brings no OpenBLAS here")
+    for _, put in _libraries():
+        put(2)
+    seen: list[int] = []
+    real = door.certify
+    monkeypatch.setattr(door, "certify", lambda *a: (seen.extend(counts()), real(*a))[1])
+    door.solve(next(iter(scenes.SHIPPED.values())))
+    assert seen
+    assert np.all(np.array(seen) == 1)

@@ -1,4 +1,4 @@
-"""The book's friction laws: their branches, their edges, and what the approximations are of."""
+"""Force laws against typed values; the book's friction laws and what approximates them."""
 
 import math
 from collections.abc import Callable
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from textmech.reference.laws.force import damper, spring, weight
 from textmech.reference.laws.friction import (
     Dry,
     H,
@@ -22,6 +23,8 @@ from textmech.reference.laws.friction import (
     velocity_dependent,
     viscous,
 )
+
+# The book's friction laws: their branches, their edges, and what the approximations are of.
 
 BOOK = Dry(F_minus=3.0, F_plus=3.0, Fs_minus=6.0, Fs_plus=6.0)
 UNEVEN = Dry(F_minus=3.0, F_plus=1.0, Fs_minus=4.0, Fs_plus=2.0)
@@ -146,3 +149,27 @@ def test_infinite_limits_of_an_interval():
 def test_smooth_interval_is_the_mean_on_its_edges():
     edges: list[Any] = [H(A)(-1.0, 1.0, x) for x in (-1.0, 1.0)]
     assert edges == pytest.approx([0.5, 0.5])
+
+
+# Force laws against typed values.
+
+
+def test_weight_points_along_gravity():
+    np.testing.assert_array_equal(weight(2.0, (0.0, -9.5)), [0.0, -19.0])
+
+
+def test_spring_pulls_when_stretched_and_pushes_when_compressed():
+    np.testing.assert_allclose(spring(10.0, 2.0, (3.0, 4.0)), [18.0, 24.0], rtol=1e-15)
+    np.testing.assert_allclose(spring(10.0, 6.0, (3.0, 4.0)), [-6.0, -8.0], rtol=1e-15)
+    np.testing.assert_allclose(spring(10.0, 5.0, (3.0, 4.0)), [0.0, 0.0], atol=1e-15)
+
+
+def test_spring_without_a_length_of_its_own_has_no_force_where_its_ends_meet():
+    np.testing.assert_array_equal(spring(10.0, 0.0, (0.0, 0.0)), [0.0, 0.0])
+    np.testing.assert_array_equal(spring(10.0, 0.0, (3.0, -4.0)), [30.0, -40.0])
+
+
+def test_damper_pulls_while_it_lengthens_and_ignores_turning():
+    np.testing.assert_allclose(damper(2.0, (3.0, 4.0), (0.3, 0.4)), [0.6, 0.8], rtol=1e-15)
+    np.testing.assert_allclose(damper(2.0, (3.0, 4.0), (-0.3, -0.4)), [-0.6, -0.8], rtol=1e-15)
+    np.testing.assert_allclose(damper(2.0, (3.0, 4.0), (-4.0, 3.0)), [0.0, 0.0], atol=1e-15)

@@ -97,13 +97,6 @@ def test_a_mistake_of_the_motion_leaves_the_closed_form(
     np.testing.assert_array_equal(after, before)
 
 
-@pytest.mark.parametrize(("A", "w"), [(0.0, 6.0), (5.0, 0.0), (5.0, -6.0)])
-def test_a_force_that_does_not_swing_is_refused(A: float, w: float) -> None:
-    """No next zero of its speed could be found: it was looked for without end."""
-    with pytest.raises(ValueError, match="the force swings with A ≠ 0 and w > 0"):
-        example("viscous_drift", A=A, w=w)
-
-
 def numbers(system: System) -> Iterator[Any]:
     """All that is known by functions, and what its first mode says of the start and of forces."""
     for t in TIMES:

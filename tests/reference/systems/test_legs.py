@@ -3,8 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,14 +11,16 @@ from given import scenes
 from given.examples import example
 from given.mutants import mutant, with_mode
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from textmech.cases.scene.quantity import at_event
-from textmech.reference.motion.follow import Followed, either, follow
+from textmech.reference.motion.follow import Change, Followed, follow
 from textmech.reference.system import Array, Guard, System
+from textmech.reference.systems.walkers.running_gait import RunningGait, _Runner
 from textmech.reference.systems.walkers.trunk_on_legs import TrunkOnLegs
 from textmech.reports.compare.events.states import reference_states
 from textmech.reports.compare.events.times import reference_events
+
+# Masses on springs that only press: flights, energies, gaits, and mistakes planted in them.
 
 G = 9.80665
 STANCE = (80.0, 16000.0, 1.0)
@@ -127,62 +127,9 @@ def test_a_trunk_that_never_says_so_is_seen(monkeypatch: pytest.MonkeyPatch) -> 
         test_a_leg_of_the_trunk_that_pulls_or_passes_through_is_said()
 
 
-def test_a_start_that_leaves_the_leg_is_refused() -> None:
-    with pytest.raises(ValueError, match="shortened at touch-down"):
-        example("spring_mass_jump", vx0=-9.0)
-
-
-def apex_to_apex(height: float, alpha: float, energy: float) -> float:
-    """The next apex [m] of the running model: the leg is set at alpha in each flight.
-
-    energy: of 80 kg on 20 kN/m, which fixes the speed at the apex; NaN where it stumbles.
-    """
-    leg = {"m": 80.0, "c": 20000.0, "l0": 1.0, "alpha": alpha}
-    down = height - math.sin(alpha)
-    speed = math.sqrt(2 * (energy / 80.0 - G * height))
-    if down < 0.0:
-        return math.nan
-    system = example("spring_mass_jump", **leg, vx0=speed, vy0=-math.sqrt(2 * G * down))
-    found = follow(system, np.linspace(0.0, 0.6, 3), by=partial(either, tolerance=1e-12))
-    if not found.events:
-        return math.nan
-    _, y, vx, vy = poses(system, "stance", found.events[0].before)
-    return y + vy * vy / (2 * G) if vx > 0.0 and vy > 0.0 else math.nan
-
-
 ALPHA, SPEED = math.radians(112.0), 5.0  # 68° of attack at about 5 m/s: as published, it is stable
 RUNS = 0.94030026326  # m: the apex of the gait that repeats itself
 ENERGY = 80.0 * (SPEED**2 / 2 + G)
-
-
-@pytest.mark.slow
-def test_the_running_gait_repeats_itself_and_is_stable() -> None:
-    """Seyfarth et al. 2002: the return map has two fixed points, of which the lower attracts.
-
-    What is just below the upper one falls to the lower, and what is just above it stumbles.
-    """
-
-    def excess(height: float) -> float:
-        return apex_to_apex(height, ALPHA, ENERGY) - height
-
-    heights = np.linspace(math.sin(ALPHA) + 1e-3, 1.4, 12)
-    signs = [(h, excess(h)) for h in heights.tolist()]
-    signs = [(h, e) for h, e in signs if not math.isnan(e)]
-    fixed = [
-        brentq(excess, a, b, xtol=1e-13)
-        for (a, left), (b, right) in pairwise(signs)
-        if left * right < 0
-    ]
-    multipliers = [(excess(h + 1e-5) - excess(h - 1e-5)) / 2e-5 + 1.0 for h in fixed]
-    assert fixed == pytest.approx([RUNS, 1.3377346605], abs=1e-9)
-    assert multipliers == pytest.approx([-0.159873, 1.686630], abs=1e-5)
-    for begins, ends in ((fixed[0] + 0.02, fixed[0]), (fixed[1] - 0.02, fixed[0])):
-        apex = begins
-        for _ in range(14):
-            apex = apex_to_apex(apex, ALPHA, ENERGY)
-        assert apex == pytest.approx(ends, abs=1e-6)
-    off = [abs(apex_to_apex(RUNS + d, ALPHA, ENERGY) - RUNS) / d for d in (1e-4, 1e-5)]
-    assert off == pytest.approx([0.159873] * 2, rel=2e-2)  # as steps tell it, not a difference
 
 
 @pytest.mark.slow
@@ -206,3 +153,78 @@ def test_the_shipped_step_is_that_of_the_periodic_gait() -> None:
         times = reference_events(case.scene, solved.record, case.events[at.event])
         found = reference_states(case, solved.record, at, times)
         assert found == pytest.approx([value], rel=1e-8), name
+
+
+# A run of four steps: its feet are where a leg that is reset in flight sets them, and its gait.
+
+SECOND = np.linspace(0.0, 1.0, 11)
+
+
+def gait(**changes: float) -> RunningGait:
+    found: Any = example("running_gait", **changes)
+    return found
+
+
+def events(system: RunningGait, name: str, times: Array = SECOND) -> list[Change]:
+    return [event for event in follow(system, times).events if event.name == name]
+
+
+def test_each_leg_touches_down_at_the_angle_of_the_first() -> None:
+    """λ = λ₀, φ = α, and the rates with which the run began."""
+    system = gait()
+    begun = np.concatenate(system.start()[1:])
+    downs = events(system, "touches down")
+    assert len(downs) == 3
+    for down in downs:
+        assert down.after == pytest.approx(begun, abs=1e-11)
+
+
+def test_a_leg_that_is_reset_in_flight_sets_its_feet_there() -> None:
+    """Of the jump alone: its take-off, then a parabola until the leg at α reaches the floor."""
+    run = gait()
+    numbers = {name: getattr(run, name) for name in ("m", "c", "l0", "alpha", "vx0", "vy0")}
+    feet = [0.0]
+    for _ in range(3):
+        jump = example("spring_mass_jump", **numbers)
+        off = follow(jump, np.array([0.0, 0.3])).events[0].before
+        x, y, _, vx, vy, _ = jump.modes["stance"].poses(0.0, *np.split(off, 2))["jumper"]
+        low = numbers["l0"] * math.sin(numbers["alpha"])
+        lasts = (vy + math.sqrt(vy * vy + 2 * G * (y - low))) / G
+        feet.append(feet[-1] + x + vx * lasts - numbers["l0"] * math.cos(numbers["alpha"]))
+        numbers |= {"vx0": vx, "vy0": vy - G * lasts}
+    assert feet == pytest.approx(run.feet, abs=1e-12)
+
+
+def ends(system: RunningGait) -> Array:
+    run = follow(system, SECOND)
+    q, v = np.split(run.y[-1], 2)
+    return np.array(system.modes[run.modes[-1]].poses(0.0, q, v)["jumper"])
+
+
+@pytest.mark.mutant(
+    "running gait: a foot 1 mm off",
+    "running gait: a flight seen from the foot that was left",
+    "running gait: a leg that pulls in flight",
+    "running gait: no weight in stance",
+)
+@pytest.mark.parametrize("mistake", ["a foot", "the leap", "a leg that pulls", "no weight"])
+def test_a_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A foot 1 mm off; a flight seen from the foot that was left; stance in flight; no gravity."""
+    sound = ends(gait())
+    wrong = gait(x2=gait().x2 + 1e-3) if mistake == "a foot" else gait()
+    if mistake == "the leap":
+        monkeypatch.setattr(RunningGait, "_seen", lambda self, k, other, q, v: (q, v))
+    elif mistake == "a leg that pulls":
+        wrong.modes["flight 2"] = wrong.modes["stance 2"]  # type: ignore[index]
+    elif mistake == "no weight":
+        rates = _Runner.accelerations
+        floats = lambda self, t, q, v: rates(self, t, q, v) + np.array([G * math.sin(q[1]), 0.0])  # noqa: E731
+        monkeypatch.setattr(_Runner, "accelerations", floats)
+    assert np.abs(ends(wrong) - sound).max() > 1e-3
+
+
+def test_two_legs_at_once_are_no_run() -> None:
+    """A second foot that the mass on the first has in reach."""
+    system = gait(x2=-0.2)
+    assert "to foot 2 is -" in str(system.possible("stance 1", 0.0, *system.start()[1:]))
+    assert gait().possible("stance 1", 0.0, *gait().start()[1:]) is None

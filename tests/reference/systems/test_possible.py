@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from given import spatial
 from given.examples import example
 
 
@@ -57,8 +58,67 @@ def test_contact_that_is_open_or_penetrates_is_said():
         ("friction_cone", {"beta": 0.5}, "has to rest"),
         ("friction_cone", {"b_x": 0.1, "b_y": -1.0}, "presses the block"),
         ("friction_of_rest", {"mu_s": 0.2}, "kinetic friction"),
+        ("ball_on_rope", {"x0": 0.9, "y0": 0.6}, "within the rope's length"),
+        ("stopped_pendulum", {"e": 1.2}, "restitution"),
+        ("stopped_pendulum", {"low": 0.5}, "bar start above it"),
+        ("viscous_drift", {"A": 0.0}, "the force swings with A ≠ 0 and w > 0"),
+        ("viscous_drift", {"w": 0.0}, "the force swings with A ≠ 0 and w > 0"),
+        ("viscous_drift", {"w": -6.0}, "the force swings with A ≠ 0 and w > 0"),
+        ("tipping_block", {"mu": 0.2}, "slides before it tips: mu > w/"),
+        ("tipping_block", {"b": 0.0}, "the push grows"),
+        ("sliding_ladder", {"phi0": 1.6}, "must lean on the wall"),
+        ("cradle", {"x2": 0.1}, "must start apart"),
+        ("cradle", {"e": 0.05}, "without end"),
+        ("cradle", {"e": 1.1}, "without end"),
+        ("stacked_blocks", {"v0": 1.0}, "pulled with b > 0 or thrown"),
+        ("stacked_blocks", {"b": 0.0}, "pulled with b > 0 or thrown"),
+        ("disk_on_disk", {"L": 0.7}, "starts on the drum"),
+        ("disk_on_disk", {"theta0": 2.0}, "rolls down on the right"),
+        ("sleigh", {"a": 0.0}, "knife edge"),
+        ("rimless_wheel", {"n": 2.0}, "three whole spokes, not 2"),
+        ("rimless_wheel", {"n": 8.4}, "three whole spokes, not 8.4"),
+        ("rimless_wheel", {"w0": -1.0}, "down the slope"),
+        ("rimless_wheel", {"n": 3.0, "J": 0.01}, "stop at once"),
+        ("spring_mass_jump", {"vx0": -9.0}, "shortened at touch-down"),
+        ("running_gait", {"vx0": -9.0}, "shortened at touch-down"),
+        ("heavy_top", {"theta0": 0.0}, "0 < theta0 < π"),
+        ("heavy_top", {"theta0": math.pi}, "0 < theta0 < π"),
+        ("heavy_top", {"theta0": -0.1}, "0 < theta0 < π"),
+        ("heavy_top", {"l": -0.05}, "l > 0"),
+        ("tilting_disk", {"beta0": math.pi / 2}, "flat on the floor"),
+        ("torque_free", {"A": 0.05}, "A > B > C"),
+        ("torque_free", {"A": 0.11}, "sum of the other two"),
     ],
 )
 def test_impossible_parameters_are_refused(name: str, changed: dict[str, float], words: str):
+    build = spatial.example if name in spatial.SPATIAL else example
     with pytest.raises(ValueError, match=words):
-        example(name, **changed)
+        build(name, **changed)
+
+
+@pytest.mark.parametrize(
+    ("name", "mode", "t", "q", "v", "message"),
+    [
+        ("sliding_ladder", "slides", 0.5, [1.0, -0.1], [0.0] * 2, "lies on the floor"),
+        ("tipping_block", "tips", 0.5, [2.7], [0.0], "lies on its side"),
+        ("tipping_block", "tips", 3.0, [2.0], [0.0], "sticking takes"),
+        ("cradle", "free", 1.0, [0.0, 0.05, 0.63], [0.0] * 3, "overlap"),
+        ("stacked_blocks", "together", 0.8, [0.0, 0.4], [0.0] * 2, "past the end"),
+        ("stacked_blocks", "together", 0.8, [0.0, 0.1], [0.0] * 2, "sticking takes"),
+        ("disk_on_disk", "rolls", 0.8, [0.6, 0.1, 0, 0], [0.0] * 4, "rolling takes"),
+        ("disk_on_disk", "rolls", 0.8, [0.6, 1.0, 0, 0], [0, -9.0, 0, 0], "would have to pull"),
+        ("disk_on_disk", "slips", 0.8, [0.6, 1.0, 0, 0], [0, 1.0, 0, 0], "slips uphill"),
+        ("disk_on_disk", "flies", 0.8, [0.5, 1.0, 0, 0], [0.0] * 4, "in the drum"),
+    ],
+)
+def test_where_it_ends_is_said(
+    name: str, mode: str, t: float, q: list[float], v: list[float], message: str
+) -> None:
+    said = example(name).possible(mode, t, np.array(q), np.array(v))
+    assert message in str(said)
+
+
+def test_blocks_that_would_tip_are_said() -> None:
+    high = example("stacked_blocks", h2=1.0, mu2=0.9)
+    said = high.possible("left behind", 1.0, np.array([0.0, 0.1]), np.array([1.0, 0.5]))
+    assert "a block tips" in str(said)
