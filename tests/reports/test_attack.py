@@ -16,7 +16,7 @@ from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import Comparison
 from textmech.reports.output import write
 from textmech.reports.system import termination as ending
-from textmech.reports.system.replace import DECIDED
+from textmech.reports.system.replace import MAKING
 
 FORK = multiprocessing.get_context("fork")
 STRIKES = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
@@ -82,8 +82,8 @@ def struck(number: signal.Signals, delay: float, start: Callable[[], None], fold
             time.sleep(0.01)
     finally:
         process.kill()
-    between = [file for file in (folder / "out").iterdir() if file.name.startswith(DECIDED)]
     why = unread(folder / "out")  # killed between two files: said, and the next writer's to end
+    between = (folder / "out" / MAKING).exists()
     assert not why or (number == signal.SIGKILL and between and "of another run" in why), why
     names = {file.name for file in (folder / "out").iterdir()} - set(write.FILES)
     assert number == signal.SIGKILL or not names
