@@ -11,6 +11,7 @@ from ..cases.case import Case
 from ..cases.load import load
 from ..cases.mistake import CaseError
 from ..engines.engine import Engine, Plan, Refusal, Start
+from ..engines.probe import apart
 from .batch.cache.key import Keys
 from .batch.cache.store import Store
 from .batch.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines, nameable
@@ -22,7 +23,6 @@ from .compare.trial.work import too_long
 from .data.coverage import countable
 from .show.progress import aloud
 from .system.limit import limit
-from .system.pool import Died, local, spread
 
 Key = tuple[str, str, str, str, str]
 """Case, engine, setting, realisation, quantity."""
@@ -36,20 +36,6 @@ class _Planning:
     engine: Engine
     case: Case
     start: Start
-
-    @property
-    def name(self) -> str:
-        return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
-
-    @property
-    def guest(self) -> str:
-        """The engine, if it is somebody else's: its process answers for nobody else then."""
-        return installed.guest(self.engine)
-
-    @property
-    def limit(self) -> float:
-        """How long the engine may take [s]."""
-        return limit()
 
 
 @dataclass(frozen=True)
@@ -68,11 +54,14 @@ class Earlier:
     def ways(self, asked: Callable[[], _Planning], case: Case, engine: Engine) -> Ways:
         """How the engine runs the case; `asked` is called where nobody has asked before."""
         key = self.keys.collected(case, engine) if self.store else ""
-        found = self.store.get(key, Ways) if self.store else None
+        found = self.store.get(key) if self.store else None
         if found is not None:
             return found
-        told = (_apart if installed.foreign(engine.name) else _ways)(asked())
-        if isinstance(told, Died):  # it may not do so again
+        if installed.foreign(engine.name):  # what it does is not this session's end
+            told, lost = apart(_ways, asked(), most=limit())
+        else:
+            told, lost = _ways(asked()), ""
+        if lost:  # it may not do so again
             return (("native", False),)
         self.new[key] = tuple((way.realised, isinstance(way, Plan)) for way in told)
         return self.new[key]
@@ -132,10 +121,3 @@ def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[K
 
 def _ways(asked: _Planning) -> tuple[Plan | Refusal, ...]:
     return ways_of(asked.engine, asked.case, asked.start)
-
-
-def _apart(asked: _Planning) -> tuple[Plan | Refusal, ...] | Died:
-    """In a process of their own: what somebody else's engine does is not this session's end."""
-    with local(1) as executor:
-        ((_, found),) = spread(_ways, [asked], executor)
-    return found
