@@ -10,7 +10,7 @@ from .. import engines as installed
 from ..cases.case import Case
 from ..cases.load import load
 from ..cases.mistake import CaseError
-from ..engines.engine import Engine, Plan, Refusal, Start
+from ..engines.engine import Engine, Plan, Start
 from ..engines.probe import apart
 from .batch.cache.key import Keys
 from .batch.cache.store import Store
@@ -32,13 +32,6 @@ Ways = tuple[tuple[str, bool], ...]
 
 
 @dataclass(frozen=True)
-class _Planning:
-    engine: Engine
-    case: Case
-    start: Start
-
-
-@dataclass(frozen=True)
 class Earlier:
     """The engines' answers to earlier sessions, in a store; without one each is asked anew."""
 
@@ -51,19 +44,19 @@ class Earlier:
         """Returns the answers in a store, for the code and the engines as they are now."""
         return Earlier(store, Keys.now(store))
 
-    def ways(self, asked: Callable[[], _Planning], case: Case, engine: Engine) -> Ways:
-        """How the engine runs the case; `asked` is called where nobody has asked before."""
+    def ways(self, case: Case, engine: Engine, start: Callable[[], Start]) -> Ways:
+        """How the engine runs the case; `start` is called where nobody has asked before."""
         key = self.keys.collected(case, engine) if self.store else ""
         found = self.store.get(key) if self.store else None
         if found is not None:
             return found
         if installed.foreign(engine.name):  # what it does is not this session's end
-            told, lost = apart(_ways, asked(), most=limit())
+            answer, why = apart(ways_of, engine, case, start(), most=limit())
+            if why:  # it may not do so again
+                return (("native", False),)
         else:
-            told, lost = _ways(asked()), ""
-        if lost:  # it may not do so again
-            return (("native", False),)
-        self.new[key] = tuple((way.realised, isinstance(way, Plan)) for way in told)
+            answer = ways_of(engine, case, start())
+        self.new[key] = tuple((way.realised, isinstance(way, Plan)) for way in answer)
         return self.new[key]
 
     def keep(self) -> None:
@@ -109,15 +102,7 @@ def collected(
 def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[Key]:
     start = cache(partial(assembled, case))
     for engine in engines:
-
-        def asked(engine: Engine = engine) -> _Planning:
-            return _Planning(engine, case, start())
-
-        for realised, runs in earlier.ways(asked, case, engine):
+        for realised, runs in earlier.ways(case, engine, start):
             audit = ("audit",) if runs else ()
             for quantity in (*audit, *judged_names(case)):
                 yield case.name, engine.name, engine.setting, realised, quantity
-
-
-def _ways(asked: _Planning) -> tuple[Plan | Refusal, ...]:
-    return ways_of(asked.engine, asked.case, asked.start)

@@ -79,5 +79,5 @@ def test_an_engine_that_hangs_is_waited_for_as_long_as_is_said(
 ) -> None:
     monkeypatch.setenv(limit.VARIABLE, "1.0")
     monkeypatch.setattr(collecting.installed, "foreign", lambda name: True)
-    asked = collecting._Planning(Faulty(verb="plans", act="hangs"), moving, {})
-    assert Earlier.of(None).ways(lambda: asked, moving, asked.engine) == (("native", False),)
+    engine = Faulty(verb="plans", act="hangs")
+    assert Earlier.of(None).ways(moving, engine, dict) == (("native", False),)

@@ -1,5 +1,6 @@
 """A process that dies, or a task that raises, costs its own result only."""
 
+import operator
 import os
 import signal
 import sys
@@ -10,11 +11,15 @@ from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 from given.forked import TOLD, runs
 
+from textmech.cases.mistake import CaseError
+from textmech.reports.command.run import _executor as cluster
 from textmech.reports.system import lock, pool
 from textmech.reports.system.lock import locked
 
@@ -87,24 +92,37 @@ def test_engines_do_not_write_into_the_users_folder(tmp_path, monkeypatch) -> No
         assert dict(pool.spread(where, [0], executor))[0] != str(tmp_path)
 
 
-def leftovers(task: Task) -> tuple[int, str]:
-    found = os.environ.get("LEFT_BEHIND", "")
+def leftovers(task: Task) -> tuple[int, tuple[object, ...]]:
+    """The process that works, and what a guest changes of it."""
+    found = (
+        os.environ.get("LEFT_BEHIND"), os.getcwd(), signal.getsignal(signal.SIGTERM),
+        sys.getrecursionlimit(), np.geterr()["over"], hasattr(os, "added"),
+    )  # fmt: skip
     if task.guest:
         os.environ["LEFT_BEHIND"] = task.guest
+        os.chdir("/")
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        sys.setrecursionlimit(999)
+        np.seterr(over="raise")
+        os.added = True  # type: ignore[attr-defined]
+        print("a banner")
     return os.getpid(), found
 
 
 @pytest.mark.mutant("a process that ran somebody else's engine answers for all")
-def test_what_an_engine_leaves_behind_reaches_nobody_else(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_an_engine_leaves_behind_reaches_nobody_else(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
     tasks = [Task(0, name) for name in ("", "one", "one", "", "two", "one", "")]
     with pool.local(1) as executor:
         found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
-    assert {left for _, left in found} == {""}
+    assert len({left for _, left in found}) == 1
+    assert capfd.readouterr().out == ""
     assert len({found[i][0] for i in (0, 3, 6)}) == 1  # ours has a process that stays
     monkeypatch.setattr(pool, "_is_guest", lambda task: False)
     with pool.local(1) as executor:
         found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
-    assert found[3][1] == "one"
+    assert all(map(operator.ne, found[0][1], found[3][1]))
 
 
 def slept(task: Task) -> str:
@@ -254,3 +272,46 @@ def test_a_lock_ends_with_who_holds_it_and_not_with_what_it_forked(tmp_path: Pat
     os.waitpid(left, 0)
     os.close(ready)
     os.close(begun)
+
+
+# A cluster's executor does the work where an address is given, and only there.
+
+
+class Client:
+    """As Dask's, with threads for its workers."""
+
+    def __init__(self, address: str, **_: Any) -> None:
+        if "nobody" in address:
+            raise OSError("Timed out trying to connect")
+
+    def __enter__(self) -> "Client":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def get_executor(self) -> Executor:
+        return ThreadPoolExecutor(1)
+
+
+def test_without_an_address_there_is_none() -> None:
+    with cluster(None) as found:
+        assert found is None
+
+
+def test_it_is_the_clients(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=Client))
+    with cluster("tcp://here:8786") as found:
+        assert isinstance(found, Executor)
+
+
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [(None, r"textmech\[dask\]"), (SimpleNamespace(Client=Client), "Timed out")],
+)
+def test_what_cannot_be_reached_is_bad_input(
+    module: object, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", module)
+    with pytest.raises(CaseError, match=words), cluster("tcp://nobody:8786"):
+        pass
