@@ -141,8 +141,8 @@ class Keys:
 
     def _described(self, engine: Engine) -> str:
         adapter = own_adapter(engine)
-        told = repr(engine) if adapter else pickle.dumps(engine).hex()
-        word = _word(told, engine.version, pins.version(engine.name) or "")
+        options = repr(engine) if adapter else pickle.dumps(engine).hex()
+        word = _word(options, engine.version, pins.version(engine.name) or "")
         code = self._code((adapter,)) if adapter else ""
         if self.libraries is None:
             return _word(word, code)
@@ -183,9 +183,9 @@ class State:
         """The state of all files in folders, and of single files. Raises OSError."""
         words, newest = list[str](), 0
         for place in places:
-            for name, found in sorted(_files(str(place))):
-                words.append(f"{name} {found.st_size} {found.st_mtime_ns}")
-                newest = max(newest, found.st_mtime_ns, found.st_ctime_ns)
+            for name, file in sorted(_files(str(place))):
+                words.append(f"{name} {file.st_size} {file.st_mtime_ns}")
+                newest = max(newest, file.st_mtime_ns, file.st_ctime_ns)
         return State(_word(*words), newest / 1e9)
 
 
@@ -222,36 +222,36 @@ def places_of(engine: Engine) -> set[Path]:
         with suppress(PackageNotFoundError):  # the book is none
             return {*_places(distribution(engine.name))}
         return set()
-    found = {*_located(type(engine).__module__.partition(".")[0])}
-    if not found:
+    places = {*_located(type(engine).__module__.partition(".")[0])}
+    if not places:
         raise ValueError(f"{type(engine).__module__} is in no file")
     provided = engines.distribution(engine.name)
     if provided is not None and provided.name != OURS:
         for each in _with_required(provided):
-            found |= {*_places(each)}
-    return found
+            places |= {*_places(each)}
+    return places
 
 
 def _with_required(first: Distribution) -> list[Distribution]:
     """A distribution, and the installed ones that it requires, and these in turn."""
-    found, names = [first], {first.name, OURS, *LIBRARIES}
-    for each in found:
-        for needed in each.requires or ():
-            match = _REQUIRED.match(needed)
-            if match and "extra ==" not in needed and match[0] not in names:
+    distributions, names = [first], {first.name, OURS, *LIBRARIES}
+    for each in distributions:  # grows meanwhile
+        for requirement in each.requires or ():
+            match = _REQUIRED.match(requirement)
+            if match and "extra ==" not in requirement and match[0] not in names:
                 names.add(match[0])
                 with suppress(PackageNotFoundError):
-                    found.append(distribution(match[0]))
-    return found
+                    distributions.append(distribution(match[0]))
+    return distributions
 
 
-def _places(found: Distribution) -> Iterator[Path]:
+def _places(installed: Distribution) -> Iterator[Path]:
     """Where a distribution's modules are loaded from, and the libraries linked beside them."""
-    listed = (found.read_text("RECORD") or "").splitlines()
-    tops = {line.partition(",")[0].partition("/")[0] for line in listed}
-    for top in sorted(tops | {*(found.read_text("top_level.txt") or "").split()}):
+    record = (installed.read_text("RECORD") or "").splitlines()
+    tops = {line.partition(",")[0].partition("/")[0] for line in record}
+    for top in sorted(tops | {*(installed.read_text("top_level.txt") or "").split()}):
         if top.endswith(".libs"):
-            yield Path(str(found.locate_file(top)))
+            yield Path(str(installed.locate_file(top)))
         elif not top.endswith("-info"):
             yield from _located(top.partition(".")[0])
 
@@ -275,7 +275,7 @@ def machine() -> str:
     Not how many cores it has: nothing here multiplies matrices so large that a library would share
     them out, and rows of one and of many were always the same.
     """
-    found = np.show_config(mode="dicts") or {}
+    built = np.show_config(mode="dicts") or {}
     variables = {k: v for k, v in os.environ.items() if k.startswith(ROUNDING)}
     return repr(
         (
@@ -286,7 +286,7 @@ def machine() -> str:
             platform.libc_ver(),
             np.__version__,
             scipy.__version__,
-            found.get("SIMD Extensions", {}),
+            built.get("SIMD Extensions", {}),
             _processor(),
             sorted(variables.items()),
         )

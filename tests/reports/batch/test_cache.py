@@ -274,7 +274,7 @@ def test_an_engine_that_is_rebuilt_under_its_version_is_another(
     copy.touch(name)
     assert words()[1] != before[1]
     assert words()[0] == before[0]
-    names_alone = otherwise(key, "{found.st_size} {found.st_mtime_ns}", "")
+    names_alone = otherwise(key, "{file.st_size} {file.st_mtime_ns}", "")
     monkeypatch.setattr(key, "State", names_alone.State)
     again = words()
     copy.touch(name)
@@ -410,7 +410,7 @@ def test_whatever_a_process_has_imported_it_has_the_same_keys(engine: str) -> No
 def test_the_libraries_that_compute_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     place = Place(tmp_path)
     (tmp_path / "a.so").write_text("ab", encoding="utf-8")
-    monkeypatch.setattr(key, "_places", lambda found: [tmp_path])
+    monkeypatch.setattr(key, "_places", lambda installed: [tmp_path])
     keys = Keys.now(Store(tmp_path))
     place.touch("a.so")
     assert Keys.now(Store(tmp_path)).solution(CASE) != keys.solution(CASE)
