@@ -6,7 +6,8 @@ import pickle
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Callable, Iterator, MutableSet
 from contextlib import contextmanager, suppress
 from importlib.metadata import EntryPoint
 from math import isfinite
@@ -16,35 +17,70 @@ from typing import Any
 from ..cases.fields.text import no_formula
 from .quiet import quiet, silence
 
+GLANCE = 0.5  # s
 SECONDS = 60.0  # of an import: the slowest package that anybody uses takes ten
 LETTERS = 100  # of a version
 
 
 def why_not(point: EntryPoint, settings: tuple[str, ...]) -> str:
     """Why it cannot be imported and made in the settings that it has of these; empty: it can."""
-    if multiprocessing.current_process().daemon:  # a worker, and whoever started it has tried
+    if multiprocessing.parent_process() is not None:  # a worker, and who started it has tried
         return ""
     return apart(_tried, point, settings, most=SECONDS)[1]
 
 
-def apart(call: Callable[..., Any], *given: Any, most: float) -> tuple[Any, str]:
+def apart(
+    call: Callable[..., Any],
+    *given: Any,
+    most: float,
+    running: MutableSet[multiprocessing.Process] | None = None,
+) -> tuple[Any, str]:
     """The call's value, from a process of its own that may take `most` s; or why there is none.
 
-    Whatever it does meanwhile is done to another process.
+    Whatever it does meanwhile is done to another process, which ends with all that it has started.
+    running: holds the process while it runs, for whoever may have to end it sooner.
     """
     here, there = multiprocessing.Pipe(duplex=False)
     process = multiprocessing.Process(target=_answer, args=(there, call, given), daemon=True)
-    process.start()
+    with _CHILDREN:
+        process.start()  # looks at all others too
+    if running is not None:
+        running.add(process)
     there.close()
     try:
-        if not here.poll(most):
-            return None, f"it takes longer than {most:g} s"
-        value, why = here.recv()
-        return value, str(why)
+        until = time.monotonic() + most
+        # What it forked may hold its end of the pipe: it is looked at now and then.
+        while not here.poll(max(0.0, min(GLANCE, until - time.monotonic()))):
+            if not _is_alive(process):
+                break
+            if time.monotonic() >= until:
+                return None, f"it takes longer than {most:g} s"
+        if here.poll():
+            value, why = here.recv()
+            return value, str(why)
     except EOFError:
-        process.join()
-        return None, f"its process ended ({_how(process.exitcode)})"
+        pass
+    except Exception as error:  # an answer that cannot be read
+        return None, error_text(error)
     finally:
+        _end(process)
+        if running is not None:
+            running.discard(process)
+    return None, f"its process ended ({_how(process.exitcode)})"
+
+
+_CHILDREN = threading.Lock()
+"""One thread looks at them at a time: the system tells each end only once."""
+
+
+def _is_alive(process: multiprocessing.Process) -> bool:
+    with _CHILDREN:
+        return process.is_alive()
+
+
+def _end(process: multiprocessing.Process) -> None:
+    """Ends it, whatever it does, with what it has started and left behind."""
+    with _CHILDREN:
         if process.pid is not None:
             end_group(process.pid)
         process.kill()
@@ -62,6 +98,19 @@ def end_group(leader: int) -> None:
     with suppress(OSError):  # it leads none yet, or all of it is gone
         if hasattr(os, "killpg"):
             os.killpg(leader, signal.SIGKILL)
+
+
+def end_with_parent() -> None:
+    """From now on this process, with its group, ends soon after the one that started it."""
+
+    def watch() -> None:
+        parent = multiprocessing.parent_process()
+        assert parent is not None
+        parent.join()
+        end_group(os.getpid())
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def unsound(engine: Any, name: str, setting: str) -> str:
@@ -147,8 +196,15 @@ def _interrupted(error: BaseException | None) -> bool:
 def _answer(there: Connection, call: Callable[..., Any], given: tuple[Any, ...]) -> None:
     lead_group()
     silence()
+    own = os.getpid()
     try:
-        there.send((call(*given), ""))
+        answer = call(*given), ""
+    except BaseException as error:
+        answer = None, error_text(error)
+    if os.getpid() != own:  # the engine forked, and came back in both: one answer is enough
+        os._exit(0)
+    try:
+        there.send(answer)
     except BaseException as error:
         there.send((None, error_text(error)))
 
@@ -165,7 +221,10 @@ def _tried(point: EntryPoint, settings: tuple[str, ...]) -> None:
 
 
 def _how(code: int | None) -> str:
-    return signal.Signals(-code).name if code is not None and code < 0 else f"exit code {code}"
+    if code is None or code >= 0:
+        return f"exit code {code}"
+    names = {number.value: number.name for number in signal.Signals}
+    return names.get(-code, f"signal {-code}")  # those for real time have no names
 
 
 def _short(value: object, say: Callable[[object], str] = repr) -> str:

@@ -10,7 +10,8 @@ from .. import engines as installed
 from ..cases.case import Case
 from ..cases.load import load
 from ..cases.mistake import CaseError
-from ..engines.engine import Engine, Plan, Refusal, Start
+from ..engines.engine import Engine, Plan, Start
+from ..engines.probe import apart
 from .batch.cache.key import Keys
 from .batch.cache.store import Store
 from .batch.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines, nameable
@@ -22,34 +23,12 @@ from .compare.trial.work import too_long
 from .data.coverage import countable
 from .show.progress import aloud
 from .system.limit import limit
-from .system.pool import Died, local, spread
 
 Key = tuple[str, str, str, str, str]
 """Case, engine, setting, realisation, quantity."""
 
 Ways = tuple[tuple[str, bool], ...]
 """How an engine runs a case: in which realisations, and whether it does or refuses."""
-
-
-@dataclass(frozen=True)
-class _Planning:
-    engine: Engine
-    case: Case
-    start: Start
-
-    @property
-    def name(self) -> str:
-        return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
-
-    @property
-    def guest(self) -> str:
-        """The engine, if it is somebody else's: its process answers for nobody else then."""
-        return installed.guest(self.engine)
-
-    @property
-    def limit(self) -> float:
-        """How long the engine may take [s]."""
-        return limit()
 
 
 @dataclass(frozen=True)
@@ -65,16 +44,19 @@ class Earlier:
         """Returns the answers in a store, for the code and the engines as they are now."""
         return Earlier(store, Keys.now(store))
 
-    def ways(self, asked: Callable[[], _Planning], case: Case, engine: Engine) -> Ways:
-        """How the engine runs the case; `asked` is called where nobody has asked before."""
+    def ways(self, case: Case, engine: Engine, start: Callable[[], Start]) -> Ways:
+        """How the engine runs the case; `start` is called where nobody has asked before."""
         key = self.keys.collected(case, engine) if self.store else ""
-        found = self.store.get(key, Ways) if self.store else None
+        found = self.store.get(key) if self.store else None
         if found is not None:
             return found
-        told = (_apart if installed.foreign(engine.name) else _ways)(asked())
-        if isinstance(told, Died):  # it may not do so again
-            return (("native", False),)
-        self.new[key] = tuple((way.realised, isinstance(way, Plan)) for way in told)
+        if installed.foreign(engine.name):  # what it does is not this session's end
+            answer, why = apart(ways_of, engine, case, start(), most=limit())
+            if why:  # it may not do so again
+                return (("native", False),)
+        else:
+            answer = ways_of(engine, case, start())
+        self.new[key] = tuple((way.realised, isinstance(way, Plan)) for way in answer)
         return self.new[key]
 
     def keep(self) -> None:
@@ -120,22 +102,7 @@ def collected(
 def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[Key]:
     start = cache(partial(assembled, case))
     for engine in engines:
-
-        def asked(engine: Engine = engine) -> _Planning:
-            return _Planning(engine, case, start())
-
-        for realised, runs in earlier.ways(asked, case, engine):
+        for realised, runs in earlier.ways(case, engine, start):
             audit = ("audit",) if runs else ()
             for quantity in (*audit, *judged_names(case)):
                 yield case.name, engine.name, engine.setting, realised, quantity
-
-
-def _ways(asked: _Planning) -> tuple[Plan | Refusal, ...]:
-    return ways_of(asked.engine, asked.case, asked.start)
-
-
-def _apart(asked: _Planning) -> tuple[Plan | Refusal, ...] | Died:
-    """In a process of their own: what somebody else's engine does is not this session's end."""
-    with local(1) as executor:
-        ((_, found),) = spread(_ways, [asked], executor)
-    return found

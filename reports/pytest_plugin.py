@@ -126,10 +126,10 @@ def pytest_configure_node(node: Any) -> None:
     if not config.getini("textmech_cases") and not any(map(_is_case, config.args)):
         return
     if _FOLDER not in stash:
-        from .system.temporary_folder import passing
+        from .system.temporary_folder import temporary_folder
 
         folder = ExitStack()
-        stash[_FOLDER] = folder.enter_context(passing("textmech-shared-"))
+        stash[_FOLDER] = folder.enter_context(temporary_folder("textmech-shared-"))
         config.add_cleanup(folder.close)
     node.workerinput[_SHARED] = str(stash[_FOLDER])
 

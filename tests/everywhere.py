@@ -33,8 +33,8 @@ SMOKE = (
     "-m", "not slow", "tests/cases/test_units.py", "tests/cases/test_mistakes.py",
     "tests/reference/integrators/test_accuracy.py::test_radau_conditions",
     "tests/reference/systems/test_closed_forms.py::test_no_number_is_complex",
-    "tests/reports/batch/cache/test_store.py", "tests/reports/page/test_heat.py",
-    "tests/reports/test_exit_codes.py", "tests/reports/test_passing.py",
+    "tests/reports/batch/test_cache.py", "tests/reports/page/test_heat.py",
+    "tests/reports/test_exit_codes.py", "tests/reports/test_replace.py",
     "tests/reports/test_picture.py", "tests/reports/test_write.py",
 )  # fmt: skip
 LINES = 40  # of what went wrong

@@ -33,7 +33,7 @@ from ..data.row import (
 )
 from ..system.pool import Died, local
 from .cache.key import Keys
-from .cache.store import Store, passing
+from .cache.store import Store, temporary_store
 from .search.cause_rows import NONE, NOTHING
 from .search.causes import Known
 from .search.causes import causes as found_causes
@@ -111,7 +111,7 @@ def measure(
     beside = [(case, e) for case in cases for e in producers(case, engines, book=book)]
     most = max(len(cases), RUNS * len(beside))
     with (
-        nullcontext(store) if store else passing() as used,
+        nullcontext(store) if store else temporary_store() as used,
         used.alone(keys.run(beside), lambda: progress("another run has these", 0, 1)),
         nullcontext(executor) if executor else local(min(jobs, most)) as working,
     ):

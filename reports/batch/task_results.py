@@ -3,17 +3,16 @@
 import time
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
 from ..system.pool import Died, spread
-from .cache.fits import returned
 from .cache.key import Keys
 from .cache.store import Store
 
-PAUSE = 0.5  # s between two looks at the code
+PAUSE = 0.5  # s between two looks at the files of code
 
 
 class Progress(Protocol):
@@ -42,9 +41,9 @@ class Results:
         if watch is not None:
             watch(self.executor)
 
-    def stored(self, keys: Iterable[str], kind: Any) -> dict[str, Any]:
-        """The stored results, by key; kind: what they have to be, as an annotation says it."""
-        return {key: kept for key in keys if (kept := self.store.get(key, kind)) is not None}
+    def stored(self, keys: Iterable[str]) -> dict[str, Any]:
+        """The stored results, by key."""
+        return {key: kept for key in keys if (kept := self.store.get(key)) is not None}
 
     def keep(self, results: Mapping[str, Any]) -> None:
         """By their keys, for the next run, unless they may be of a mixture of code."""
@@ -56,13 +55,9 @@ class Results:
         self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
     ) -> dict[str, Any]:
         """By the tasks' keys: what is stored, and all else computed and kept at once."""
-        found = self.stored(tasks, returned(function))
-        left = {key: task for key, task in tasks.items() if key not in found}
-        gathering = Gathering(self.keep)
-        try:
-            return found | self.anew(what, function, left, len(tasks), gathering.add)
-        finally:  # what was finished before a run is interrupted is kept too
-            gathering.release()
+        stored = self.stored(tasks)
+        missing = {key: task for key, task in tasks.items() if key not in stored}
+        return stored | self.anew(what, function, missing, len(tasks), keep=True)
 
     def anew(
         self,
@@ -70,49 +65,36 @@ class Results:
         function: Callable[[Any], Any],
         tasks: Mapping[str, Any],
         of: int | None = None,
-        keep: Callable[[str, Any], None] = lambda key, result: None,
+        *,
+        keep: bool = False,
     ) -> dict[str, Any]:
-        """Computes every task, whatever is stored; of: how many there are with those stored."""
+        """Computes every task, whatever is stored; of: how many there are with those stored.
+
+        keep: whether the results are stored as they come, also where the rest is interrupted.
+        """
         total = len(tasks) if of is None else of
         done, found, keys = total - len(tasks), dict[str, Any](), list(tasks)
         whole, finished = sum(map(_work, tasks.values())) or 1.0, 0.0
+        unkept, since = dict[str, Any](), time.monotonic()
 
         def tell(last: str = "") -> None:
             self.progress(what, done + len(found), total, last, finished / whole)
 
         tell()
-        for index, result in spread(function, list(tasks.values()), self.executor, tell):
-            key = keys[index]
-            found[key] = result
-            finished += _work(tasks[key])
-            if not isinstance(result, Died | CaseError):
-                keep(key, result)
-            tell(getattr(tasks[key], "name", ""))
+        try:
+            for index, result in spread(function, list(tasks.values()), self.executor, tell):
+                key = keys[index]
+                found[key] = result
+                finished += _work(tasks[key])
+                if keep and not isinstance(result, Died | CaseError):
+                    unkept[key] = result
+                if time.monotonic() - since >= PAUSE:  # to look at all files takes longer than most
+                    self.keep(unkept)
+                    unkept, since = {}, time.monotonic()
+                tell(getattr(tasks[key], "name", ""))
+        finally:
+            self.keep(unkept)
         return found
-
-
-@dataclass
-class Gathering:
-    """Results as they come, handed on together every half a second.
-
-    Before any is kept each file of the code is looked at, which takes longer than most results.
-    """
-
-    keep: Callable[[Mapping[str, Any]], None]
-    since: float = field(default_factory=time.monotonic)
-    waiting: dict[str, Any] = field(default_factory=dict)
-
-    def add(self, key: str, result: Any) -> None:
-        """One more."""
-        self.waiting[key] = result
-        if time.monotonic() - self.since >= PAUSE:
-            self.release()
-
-    def release(self) -> None:
-        """Stores all pending results."""
-        together, self.waiting = self.waiting, {}
-        self.keep(together)
-        self.since = time.monotonic()
 
 
 def mistakes_of(case: Case, answer: object) -> list[Mistake]:

@@ -168,7 +168,7 @@ def _at_own_samples(case: Case) -> tuple[Solution, set[str]]:
 
 @lru_cache(AT_HAND)
 def _at_hand(store: Store, key: str) -> Trajectory | None:
-    solution: Solution | None = store.get(key, Solution)
+    solution: Solution | None = store.get(key)
     return None if solution is None else solution.trajectory
 
 

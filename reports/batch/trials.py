@@ -38,9 +38,9 @@ def tried(pairs: Sequence[Pair], references: References, results: Results) -> li
 
 def _stored(key: str, pair: Pair, results: Results) -> list[Tried]:
     """The stored outcomes of a pair in every way, if all are stored; else nothing."""
-    ways: tuple[Realised, ...] = results.store.get(key, tuple[Realised, ...]) or ()
+    ways: tuple[Realised, ...] = results.store.get(key) or ()
     names = [results.keys.outcome(key, way) for way in ways]
-    outcomes = results.stored(names, Outcome)
+    outcomes = results.stored(names)
     if len(outcomes) < len(names):
         return []
     return [Tried(pair, way, outcomes[name]) for way, name in zip(ways, names, strict=True)]
@@ -66,7 +66,7 @@ def _computed(
         if not died:
             planned_ways[key] = tuple(way.realised for way in found)
     results.keep(planned_ways)
-    outcomes = results.stored(units, Outcome)
+    outcomes = results.stored(units)
     left = {name: unit for name, unit in units.items() if name not in {**outcomes, **gone}}
     outcomes |= gone | _run(left, references, results)
     return {key: [_tried(units[n], outcomes[n], references) for n in mine[key]] for key in pairs}

@@ -14,7 +14,6 @@ import click
 from ...cases.mistake import CaseError, Mistake
 from ..data.ownership import OVERWRITE
 from ..system.limit import choose
-from ..system.temporary_folder import adopt
 
 Decorated = Callable[[Any], Any]
 
@@ -158,7 +157,6 @@ class Folder(click.Path):
         try:
             folder.mkdir(parents=True, exist_ok=True)
             _tried(folder)
-            adopt(folder)
         except OSError as error:
             self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
         return folder

@@ -3,17 +3,16 @@
 import errno
 import os
 import stat
-from contextlib import suppress
 from pathlib import Path
 
 LARGEST = 100_000_000  # bytes of a report: half a million rows; ours have five thousand
 _FLAGS = ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY")  # those that this system has
 
 
-def content(path: Path, most: int = LARGEST, *, links: bool = True, touched: bool = False) -> bytes:
+def content(path: Path, most: int = LARGEST, *, links: bool = True) -> bytes:
     """The file's bytes. Raises OSError if it is no regular file, or longer than `most`.
 
-    links: whether a link to one will do. touched: note that it is used now, at the file itself.
+    links: whether a link to one will do.
     """
     flags = os.O_RDONLY | sum(getattr(os, name, 0) for name in _FLAGS)
     held = os.open(path, flags if links else flags | getattr(os, "O_NOFOLLOW", 0))
@@ -29,9 +28,6 @@ def content(path: Path, most: int = LARGEST, *, links: bool = True, touched: boo
         if len(data) > most:
             told = f"{found.st_size / 1e6:.0f} MB, at most {most / 1e6:.0f}"
             raise OSError(errno.EFBIG, f"is too large: {told}", str(path))
-        if touched and os.utime in os.supports_fd:
-            with suppress(OSError):  # another user's
-                os.utime(held)
     return bytes(data)
 
 

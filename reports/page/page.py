@@ -25,7 +25,7 @@ from ..data.row import FAILS, MUTANTS, Certificate
 from ..data.spoken import WORDS, spoken
 from ..output import write
 from ..system.replace import replace
-from ..system.temporary_folder import passing
+from ..system.temporary_folder import temporary_folder
 from . import beside
 from .advice import advice
 from .beside import records
@@ -244,7 +244,7 @@ def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> Non
     """The reports of a run and their page. Raises OSError: then the folder holds what it held."""
     frames = write.tables(report, report.cases)
     unasked(out, [*frames, runs.NAME, NAME], overwrite=overwrite)
-    with passing("textmech-page-") as made:
+    with temporary_folder("textmech-page-") as made:
         write.write(frames, made)
         found = folder(made, beside=out)
     made_of = page(found, report.cases, motions(report))

@@ -1,1 +1,1 @@
-"""Processes, their ends and limits, locks, and files that are replaced whole or not at all."""
+"""Processes, their ends and limits, locks, and files that are replaced together."""

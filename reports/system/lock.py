@@ -14,53 +14,53 @@ _PLAIN = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 
 @contextmanager
 def locked(path: Path, waiting: Callable[[], None] | None = None) -> Iterator[None]:
-    """Holds the folder, or the file, which is made; waits, and says so, while another does.
+    """Locks the folder, or the file, which is made; waits, and says so, while another does.
 
     A lock that cannot be had is none: another user's file in a cache that two share, a network
     file system without locks. Who needs it to write learns that from the writing.
     """
-    held = _opened(path)
-    if held is None:
+    descriptor = _opened(path)
+    if descriptor is None:
         yield
         return
-    _HELD.add(held)
+    _DESCRIPTORS.add(descriptor)
     try:
-        if not _lock(held, waits=False):
+        if not _lock(descriptor, waits=False):
             if waiting:
                 waiting()
-            _lock(held)
+            _lock(descriptor)
         yield
     finally:
-        _close(held)
+        _close(descriptor)
 
 
-_HELD: set[int] = set()
-"""The locks' descriptors: a process that an engine forks would hold them as long as it lives."""
+_DESCRIPTORS: set[int] = set()
+"""Of the locks: a process that an engine forks would hold them as long as it lives."""
 
 
-def _lock(held: int, *, waits: bool = True) -> bool:
+def _lock(descriptor: int, *, waits: bool = True) -> bool:
     """Locks it; False while another has it. On a network file system without locks none has."""
     from filelock import lock_descriptor  # a quarter of a second
 
     with suppress(OSError):
-        return lock_descriptor(held, blocking=waits)
+        return lock_descriptor(descriptor, blocking=waits)
     return True
 
 
-def _close(held: int) -> None:
-    if held in _HELD:
-        _HELD.discard(held)
+def _close(descriptor: int) -> None:
+    if descriptor in _DESCRIPTORS:
+        _DESCRIPTORS.discard(descriptor)
         with suppress(OSError):
-            os.close(held)
+            os.close(descriptor)
 
 
-def _let_go() -> None:
-    for held in [*_HELD]:
-        _close(held)
+def _close_all() -> None:
+    for descriptor in [*_DESCRIPTORS]:
+        _close(descriptor)
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_let_go)
+    os.register_at_fork(after_in_child=_close_all)
 
 
 def _opened(path: Path) -> int | None:
@@ -73,19 +73,3 @@ def _opened(path: Path) -> int | None:
     with suppress(OSError):
         return os.open(path, kind | _PLAIN, 0o600)
     return None
-
-
-def abandoned(path: Path) -> bool:
-    """Whether nobody holds the file any more, or it is gone; False where locks cannot tell."""
-    from filelock import lock_descriptor
-
-    try:
-        held = os.open(path, os.O_RDONLY | _PLAIN)
-    except OSError as error:
-        return isinstance(error, FileNotFoundError)
-    try:
-        return lock_descriptor(held, blocking=False)
-    except OSError:
-        return False
-    finally:
-        os.close(held)

@@ -98,6 +98,32 @@ def known_signals() -> list[signal.Signals]:
     return [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
 
 
+def block_signals() -> None:
+    """Let signals wait in this thread, and in the processes that it starts."""
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_BLOCK, known_signals())
+
+
+@contextmanager
+def signals_blocked() -> Iterator[None]:
+    """Let signals wait until the block ends; a process that it starts inherits the waiting."""
+    block_signals()
+    try:
+        yield
+    finally:
+        if hasattr(signal, "pthread_sigmask"):
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, known_signals())
+
+
+def leave_signals_to_parent() -> None:
+    """Ignore what the terminal sends to all of its processes; SIGTERM ends this one."""
+    for number in known_signals():
+        signal.signal(number, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, known_signals())
+
+
 def _interrupt(*_: Any) -> None:
     """Ends as an error does; at once if nobody hears it, or if it is said again."""
     for number in known_signals():

@@ -17,7 +17,7 @@ from ..data.row import CRASHED, REFUSED
 from ..output.diff.columns import ERRORS
 from ..output.diff.folder import Folder, opened
 from ..system import child
-from ..system.temporary_folder import passing
+from ..system.temporary_folder import temporary_folder
 from .release import Release, alike, place
 
 ENVIRONMENTS = "versions"  # in the user's cache
@@ -62,7 +62,7 @@ def measure(
         places = [place(release, cache / ENVIRONMENTS, tell) for release in releases]
         for release, found in zip(releases, places, strict=True):
             tell(f"running {release}")
-            with passing("textmech-release-") as out:
+            with temporary_folder("textmech-release-") as out:
                 asked = ["--json", "--engine", release.engine, "--out", out, *words, "--", *cases]
                 code, said = child.run(
                     [sys.executable, "-P", "-c", COMMAND, "run", *asked],
@@ -78,7 +78,7 @@ def _cache() -> Iterator[Path]:
     if usable() is not None:
         yield by_default()
         return
-    with passing("textmech-releases-") as folder:
+    with temporary_folder("textmech-releases-") as folder:
         yield folder
 
 

@@ -18,7 +18,7 @@ from pathlib import Path
 from ... import engines
 from ...cases.mistake import CaseError, Mistake, nearest
 from ..system import child
-from ..system.temporary_folder import passing
+from ..system.temporary_folder import temporary_folder
 
 ZEROS = re.compile(r"(\.0)+(?![.\d])")
 VERSION = re.compile(r"\d[\w.+!]*", re.ASCII)
@@ -92,7 +92,7 @@ def place(release: Release, among: Path, tell: Callable[[str], None]) -> Path | 
         tell(f"installing {release}")
         shutil.rmtree(folder, ignore_errors=True)  # what somebody took a part of
         among.mkdir(parents=True, exist_ok=True, mode=0o700)
-        with passing(".making-", among) as made:
+        with temporary_folder(".making-", among) as made:
             _install([str(release)], made / "first", release)
             pieces = [*_pieces(made / "first")]
             if pieces:

@@ -33,7 +33,7 @@ def solved(name: str) -> Solution:
     Nothing is stored here: who asks may have planted a mistake.
     """
     case, store = EVERY[name], usable()
-    kept = store.get(Keys.now(store).solution(case), Solution) if store else None
+    kept = store.get(Keys.now(store).solution(case)) if store else None
     return solve(case) if kept is None else kept
 
 

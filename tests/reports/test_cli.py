@@ -320,7 +320,7 @@ def dies(case: Case) -> Any:
 @pytest.mark.parametrize("words", [("check",), ("run", "--no-cache"), ("advise", "--no-cache")])
 @pytest.mark.parametrize(
     ("moved", "what"),
-    [(eats, "needs more memory than its process may take"), (dies, "the process died (SIGKILL)")],
+    [(eats, "needs more memory than its process may take"), (dies, "its process ended (SIGKILL)")],
     ids=["eats", "dies"],
 )
 def test_a_reference_that_is_lost_is_a_mistake_of_its_case(

@@ -13,7 +13,6 @@ from textmech.reports.batch.cache.key import Keys
 from textmech.reports.batch.cache.store import Store
 from textmech.reports.collecting import Earlier, Key, collected
 from textmech.reports.system import limit
-from textmech.reports.system.pool import Died
 
 FILE = shipped()["bar_pendulum"]
 
@@ -79,6 +78,6 @@ def test_an_engine_that_hangs_is_waited_for_as_long_as_is_said(
     moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(limit.VARIABLE, "1.0")
-    found = collecting._apart(collecting._Planning(Faulty(verb="plans", act="hangs"), moving, {}))
-    assert isinstance(found, Died)
-    assert found.because == "it took longer than 1 s, and was ended"
+    monkeypatch.setattr(collecting.installed, "foreign", lambda name: True)
+    engine = Faulty(verb="plans", act="hangs")
+    assert Earlier.of(None).ways(moving, engine, dict) == (("native", False),)

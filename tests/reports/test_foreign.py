@@ -29,7 +29,6 @@ from textmech.reports.system import replace as replacing
 from textmech.reports.system.replace import replace
 
 VICTIM = "what must stay\n"
-Hostile = Callable[[Path], None]
 
 
 @pytest.fixture
@@ -41,76 +40,29 @@ def folder(tmp_path: Path) -> Path:
     return report(tmp_path / "in" / "reports")
 
 
-def decided(folder: Path, *names: str, mark: bool = True, prefix: str = ".written-") -> Path:
-    """What an interrupted run would leave, if it had such names; marked as ours if it can be."""
-    made = folder / f"{prefix}abc"
-    (made / "new").mkdir(parents=True)
-    (made / "old").mkdir()
-    told = [replacing._mark(made)] if mark else []
-    (made / "names").write_text("\n".join([*told, *names]), encoding="utf-8")
-    return made
-
-
-def led(path: Path, to: Path) -> None:
-    shutil.rmtree(path)
-    path.symlink_to(to)
-
-
-OUTSIDE = "../../victim.txt"
-HOSTILE: dict[str, Hostile] = {
-    "undone": lambda f: void(decided(f, OUTSIDE, mark=False)),
-    "undone, marked": lambda f: void(decided(f, OUTSIDE)),
-    "written": lambda f: void((decided(f, OUTSIDE) / "victim.txt").write_text("x")),
-    "absolute": lambda f: void(decided(f, str(f.parents[1] / "victim.txt"))),
-    "itself": lambda f: void(decided(f, ".", "..", "")),
-    "folders that lead elsewhere": lambda f: led(
-        decided(f, "victim.txt") / "new", f.parents[1] / "victims"
-    ),
-    "the folder leads elsewhere": lambda f: (f / ".written-x").symlink_to(f.parents[1] / "victims"),
-    "swept leads elsewhere": lambda f: (f / ".writing-x").symlink_to(f.parents[1] / "victims"),
-    "names lead elsewhere": lambda f: linked(decided(f) / "names", f.parents[1] / "victim.txt"),
-    "no text": lambda f: void((decided(f) / "names").write_bytes(b"\xff\xfe\0")),
-    "a pipe of names": lambda f: piped(decided(f) / "names"),
-    "a device of names": lambda f: linked(decided(f) / "names", Path("/dev/zero")),
-    "no folder": lambda f: void((f / ".written-x").write_text("names")),
-}
-
-
-def void(_: object) -> None:
-    return None
-
-
 def linked(path: Path, to: Path) -> None:
     path.unlink()
     path.symlink_to(to)
 
 
-def piped(path: Path) -> None:
-    path.unlink()
-    os.mkfifo(path)
-
-
-@pytest.mark.parametrize("name", HOSTILE)
-def test_what_a_folder_says_is_decided_reaches_nothing_outside(name: str, folder: Path) -> None:
-    """Also of one that bears our mark: somebody may know the number of its node."""
-    HOSTILE[name](folder)
+@pytest.mark.parametrize("to", ["victims", "victim.txt", "nowhere"])
+def test_a_folder_of_ours_that_leads_elsewhere_is_not_written_through(
+    to: str, folder: Path
+) -> None:
+    """Somebody may have put it where a killed run leaves one."""
     above = folder.parents[1]
+    (folder / replacing.MAKING).symlink_to(above / to)
     before = (above / "victim.txt").read_bytes(), digest(above / "victims")
-    replace(folder, {"tolerance.csv": "new"})
+    with pytest.raises(FileExistsError):
+        replace(folder, {"tolerance.csv": "new"})
     assert ((above / "victim.txt").read_bytes(), digest(above / "victims")) == before
-    assert (folder / "tolerance.csv").read_text() == "new"
     assert sorted(path.name for path in above.iterdir()) == ["in", "victim.txt", "victims"]
 
 
-@pytest.mark.parametrize("prefix", [".written-", ".writing-"])
-def test_of_a_copy_nothing_is_finished_or_swept(prefix: str, folder: Path, tmp_path: Path) -> None:
-    """Somebody's notes may lie in a folder of such a name."""
-    made = decided(folder, "notes.txt", prefix=prefix)
-    (made / "new" / "notes.txt").write_text("theirs")
-    copy = shutil.copytree(folder, tmp_path / "copy")
-    replace(copy, {"a.csv": "x"})
-    assert (copy / made.name / "new" / "notes.txt").read_text() == "theirs"
-    assert not (copy / "notes.txt").exists()
+@pytest.mark.parametrize("name", ["../../victim.txt", "/tmp/victim.txt", "..", ".", ""])
+def test_a_name_that_leads_elsewhere_is_refused(name: str, folder: Path) -> None:
+    with pytest.raises(OSError, match="is no file's name"):
+        replace(folder, {name: "new"})
 
 
 def test_what_stands_in_a_files_place_is_replaced_and_never_written_through(folder: Path) -> None:
@@ -147,7 +99,8 @@ READING = {
 def test_who_reads_writes_nothing(name: str, folder: Path, tmp_path: Path) -> None:
     """Into the folder, beside it, or anywhere below, whatever an interrupted run has left there."""
     (folder / "cart.yaml").write_text(NEW, encoding="utf-8")
-    (decided(folder, "tolerance.csv") / "new" / "tolerance.csv").write_text("half")
+    (folder / replacing.MAKING).mkdir()
+    (folder / replacing.MAKING / "tolerance.csv").write_text("half")
     other = report(tmp_path / "other", rows=[changed(ROW, error=3e-3)])
     before = digest(tmp_path)
     folder.chmod(0o555)
@@ -164,15 +117,12 @@ def test_a_folder_that_was_left_between_two_runs_is_read_as_neither(
 ) -> None:
     """Of files half of which a killed run has replaced: said, and not settled."""
     other = report(tmp_path / "other", rows=[changed(ROW, error=3e-3)])
-    made = decided(folder, *FILES)
     for name in FILES[:2]:
         shutil.copy(other / name, folder / name)
-    for name in FILES[2:]:
-        shutil.copy(other / name, made / "new" / name)
     assert "or of another run" in textmech("diff", folder, other).stderr
     with pytest.raises(ValueError, match="or of another run"):
         read(folder / "tolerance.csv", Comparison)
-    replace(folder, {})  # whoever writes there next finishes it
+    replace(folder, {name: (other / name).read_bytes() for name in FILES})  # the next run
     assert textmech("diff", folder, other).stdout.strip().endswith("nothing changed")
 
 
@@ -263,3 +213,77 @@ def test_a_refused_command_leaves_no_empty_folder(tmp_path: Path) -> None:
         )  # fmt: skip
         assert done.returncode == 2, done.stderr
         assert [*tmp_path.iterdir()] == []
+
+
+# What textmech did not write is never overwritten unasked.
+
+STRANGE = {
+    "run": ("tolerance.csv", ("run", "cart.yaml", "--out", "o")),
+    "keep": ("cart.csv", ("run", "cart.yaml", "--keep", "o")),
+    "keep's events": ("cart.events.csv", ("run", "cart.yaml", "--keep", "o")),
+    "page": ("index.html", ("page", "cart.yaml", "--out", "o")),
+    "page's reports": ("events.csv", ("page", "cart.yaml", "--out", "o")),
+    "advise": ("advice.csv", ("advise", "cart.yaml", "--out", "o")),
+    "versions": ("versions.csv", ("versions", "pymunk==1.0", "cart.yaml", "--out", "o")),
+}
+
+
+@pytest.mark.mutant("a stranger's file is overwritten")
+@pytest.mark.parametrize("name", STRANGE)
+def test_a_strangers_file_is_never_overwritten_unasked(name: str, tmp_path: Path) -> None:
+    """And that is said before the work."""
+    (tmp_path / "cart.yaml").write_text(NEW, encoding="utf-8")
+    file, words = STRANGE[name]
+    (tmp_path / "o").mkdir()
+    (tmp_path / "o" / file).write_text("mine, mine\n1, 2\n", encoding="utf-8")
+    before = digest(tmp_path, folders_dates=False)  # whether it can be written to is tried
+    done = textmech(*words, folder=tmp_path)
+    assert done.returncode == 2
+    assert f"o/{file}: was not written by textmech, and would be overwritten" in done.stderr
+    assert "say --overwrite; nothing was written" in done.stderr
+    assert "engines" not in done.stderr
+    assert digest(tmp_path, folders_dates=False) == before
+
+
+ONE = ("--engine", "mujoco.shipped")
+
+
+@pytest.mark.slow
+def test_what_we_wrote_is_overwritten_and_a_strangers_if_asked(tmp_path: Path) -> None:
+    """Of reports, of what is kept, of a page: each is known as ours again."""
+    (tmp_path / "cart.yaml").write_text(NEW, encoding="utf-8")
+    run = ("run", "cart.yaml", *ONE, "--out", "o", "--keep", "k")
+    page = ("page", "cart.yaml", *ONE, "--out", "p")
+    for _ in range(2):
+        for words in (run, page):
+            done = textmech(*words, folder=tmp_path)
+            assert done.returncode == 0, done.stderr
+    for file in ("o/tolerance.csv", "k/cart.csv", "p/index.html"):
+        (tmp_path / file).write_text("mine\n", encoding="utf-8")
+    for words in (run, page):
+        assert textmech(*words, folder=tmp_path).returncode == 2
+        assert textmech(*words, "--overwrite", folder=tmp_path).returncode == 0
+    assert "mine\n" not in [f.read_text(errors="replace") for f in tmp_path.glob("?/*.*")]
+
+
+def test_a_link_is_no_file_of_ours(tmp_path: Path) -> None:
+    """It may lead to one: what it leads to stays, but whose is the link?"""
+    folder = report(tmp_path / "reports")
+    (folder / "tolerance.csv").rename(folder / "sound.csv")
+    (folder / "tolerance.csv").symlink_to("sound.csv")
+    with pytest.raises(FileExistsError, match="is a link"):
+        ownership.unasked(folder, ["tolerance.csv"], overwrite=False)
+    ownership.unasked(folder, ["sound.csv", "events.csv", "not there.csv"], overwrite=False)
+
+
+def test_two_cases_that_would_be_kept_in_one_file_are_refused_before_the_work(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "cart.yaml").write_text(NEW, encoding="utf-8")
+    (tmp_path / "cart.events.yaml").write_text(NEW, encoding="utf-8")
+    words = ("run", "cart.yaml", "cart.events.yaml", *ONE, "--keep", "o")
+    done = textmech(*words, folder=tmp_path)
+    assert done.returncode == 2
+    assert "cart.events.csv would be kept of 'cart' and of 'cart.events': rename" in done.stderr
+    assert "engines" not in done.stderr
+    assert list((tmp_path / "o").iterdir()) == []

@@ -1,17 +1,9 @@
 """The plug-in under pytest-xdist: its workers share what one of them has computed."""
 
-import os
-import signal
-import sys
-import tempfile
-import time
 from pathlib import Path
-from subprocess import DEVNULL, Popen
 
 import pytest
 from given.swing import SWING
-
-from textmech.reports.system.temporary_folder import MARK, passing
 
 pytest_plugins = ["pytester"]
 
@@ -29,34 +21,6 @@ def counted(function, tasks, executor, beat):
 
 results.spread = counted
 """
-
-
-def marked(among: Path) -> list[Path]:
-    """The folders that workers share, once they say whose they are."""
-    marks = among.glob(f"textmech-shared-*/{MARK}")
-    return [mark.parent for mark in marks if mark.stat().st_size]
-
-
-@pytest.mark.slow
-def test_what_killed_workers_shared_goes_with_the_next_run(
-    pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.setenv("TMPDIR", str(tmp_path))
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    pytester.makefile(".yaml", swing=SWING)
-    words = [sys.executable, "-m", "pytest", "swing.yaml", "-n", "2", "--textmech-no-cache"]
-    with Popen(words, cwd=pytester.path, start_new_session=True, stdout=DEVNULL) as process:
-        until = time.monotonic() + 60.0
-        while not (found := marked(tmp_path)) and time.monotonic() < until:
-            time.sleep(0.01)
-        os.killpg(process.pid, signal.SIGKILL)
-    assert found
-    assert found[0].is_dir()
-    until = time.monotonic() + 60.0  # a worker killed as it starts may hold the mark a while
-    while found[0].exists() and time.monotonic() < until:
-        with passing("textmech-shared-"):
-            time.sleep(0.01)
-    assert not found[0].exists()
 
 
 @pytest.mark.slow

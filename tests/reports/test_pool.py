@@ -1,5 +1,6 @@
 """A process that dies, or a task that raises, costs its own result only."""
 
+import operator
 import os
 import signal
 import sys
@@ -10,13 +11,17 @@ from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import numpy as np
 import pytest
 from given.forked import TOLD, runs
 
+from textmech.cases.mistake import CaseError
+from textmech.reports.command.run import _executor as cluster
 from textmech.reports.system import lock, pool
 from textmech.reports.system.lock import locked
-from textmech.reports.system.pool import Processes
 
 
 def work(task: int) -> int:
@@ -26,31 +31,55 @@ def work(task: int) -> int:
         raise ZeroDivisionError("five")
     if task == 6:
         sys.exit(0)
+    if task == 7:
+        os._exit(0)
+    if task == 8:
+        os.kill(os.getpid(), signal.SIGRTMIN + 2)
+    if task == 9:
+        raise Strange("one", "two")
     return task * task
 
 
-def struck(task: int) -> int:
-    if task == 1:
-        os.kill(os.getpid(), signal.SIGRTMIN + 2)
-    return task
+class Strange(Exception):
+    """One that is pickled and cannot be read back."""
+
+    def __init__(self, one: str, two: str) -> None:
+        super().__init__(one)
 
 
-def test_a_signal_without_a_name_is_one() -> None:
-    """And the process that it ended is replaced: the next task is answered."""
-    with pool.local(1) as executor:
-        found = dict(pool.spread(struck, [0, 1, 2], executor))
-    died = pool.Died(f"the process died (signal {signal.SIGRTMIN + 2})")
-    assert found == {0: 0, 1: died, 2: 2}
+TOLD_OF = {
+    3: "its process ended (SIGKILL)",
+    5: "ZeroDivisionError: five",
+    6: "SystemExit: 0",
+    7: "its process ended (exit code 0)",
+    8: f"its process ended (signal {signal.SIGRTMIN + 2})",
+    9: "Strange: one",
+}
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task of ours, or of somebody else's engine."""
+
+    what: Any
+    guest: str = ""
+    limit: float = 60.0
+    name: str = ""
+
+
+def worked(task: Task) -> int:
+    return work(task.what)
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_the_rest_goes_on(jobs: int) -> None:
+@pytest.mark.parametrize("guest", ["", "one"])
+def test_whatever_a_task_does_it_is_told_and_costs_no_other(guest: str, jobs: int) -> None:
+    tasks = [Task(what, guest) for what in (*range(12), 3, 8, 3, *range(12))]
     with pool.local(jobs) as executor:
-        found = dict(pool.spread(work, list(range(7)), executor))
-    assert {i: r for i, r in found.items() if i not in (3, 5, 6)} == {0: 0, 1: 1, 2: 4, 4: 16}
-    assert found[3] == pool.Died("the process died (SIGKILL)")
-    assert found[5] == pool.Died("ZeroDivisionError: five")
-    assert found[6] == pool.Died("SystemExit: 0")
+        found = dict(pool.spread(worked, tasks, executor))
+    for index, task in enumerate(tasks):
+        told = TOLD_OF.get(task.what)
+        assert found[index] == (pool.Died(told) if told else task.what**2)
 
 
 def where(_: int) -> str:
@@ -63,63 +92,52 @@ def test_engines_do_not_write_into_the_users_folder(tmp_path, monkeypatch) -> No
         assert dict(pool.spread(where, [0], executor))[0] != str(tmp_path)
 
 
-@dataclass(frozen=True)
-class Guest:
-    """A task of somebody else's engine, which leaves something behind; of ours it is empty."""
-
-    guest: str
-
-
-def leftovers(task: Guest) -> tuple[int, str]:
-    found = os.environ.get("LEFT_BEHIND", "")
+def leftovers(task: Task) -> tuple[int, tuple[object, ...]]:
+    """The process that works, and what a guest changes of it."""
+    found = (
+        os.environ.get("LEFT_BEHIND"), os.getcwd(), signal.getsignal(signal.SIGTERM),
+        sys.getrecursionlimit(), np.geterr()["over"], hasattr(os, "added"),
+    )  # fmt: skip
     if task.guest:
         os.environ["LEFT_BEHIND"] = task.guest
+        os.chdir("/")
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        sys.setrecursionlimit(999)
+        np.seterr(over="raise")
+        os.added = True  # type: ignore[attr-defined]
+        print("a banner")
     return os.getpid(), found
 
 
-@pytest.mark.slow
 @pytest.mark.mutant("a process that ran somebody else's engine answers for all")
-def test_what_an_engine_leaves_behind_reaches_nobody_else(monkeypatch: pytest.MonkeyPatch) -> None:
-    tasks = [Guest(name) for name in ("", "one", "one", "", "", "two", "one", "")]
+def test_what_an_engine_leaves_behind_reaches_nobody_else(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    tasks = [Task(0, name) for name in ("", "one", "one", "", "two", "one", "")]
     with pool.local(1) as executor:
         found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
-    assert [left for _, left in found] == ["", "", "one", "", "", "", "", ""]
-    assert found[0][0] == found[1][0] == found[2][0]  # no more processes than it needs
-    assert found[3][0] == found[4][0] == found[5][0]
-    monkeypatch.setattr(pool._Process, "guest", property(lambda self: "", lambda self, name: None))
+    assert len({left for _, left in found}) == 1
+    assert capfd.readouterr().out == ""
+    assert len({found[i][0] for i in (0, 3, 6)}) == 1  # ours has a process that stays
+    monkeypatch.setattr(pool, "_is_guest", lambda task: False)
     with pool.local(1) as executor:
         found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
-    assert found[3][1] == "one"
+    assert all(map(operator.ne, found[0][1], found[3][1]))
 
 
-def end(how: str) -> str:
-    if how == "dies":
-        os.kill(os.getpid(), signal.SIGKILL)
-    if how == "leaves":
-        os._exit(0)
-    if how == "raises":
-        raise Strange("one", "two")
-    return how
-
-
-class Strange(Exception):
-    """One that is pickled and cannot be read back."""
-
-    def __init__(self, one: str, two: str) -> None:
-        super().__init__(one)
+def slept(task: Task) -> str:
+    time.sleep(task.what)
+    return "woke"
 
 
 @pytest.mark.slow
-def test_whatever_a_task_does_it_is_told_and_costs_no_other() -> None:
-    tasks = [*["dies", "leaves", "raises"] * 5, *map(str, range(20))]
+@pytest.mark.parametrize("guest", ["", "one"])
+def test_a_task_that_hangs_is_ended(guest: str) -> None:
+    tasks = [Task(0.0), Task(3600.0, guest, 1.0), *[Task(0.1)] * 4]
     with pool.local(2) as executor:
-        found = dict(pool.spread(end, tasks, executor))
-    told = {"dies": "SIGKILL", "leaves": "exit code 0", "raises": "one"}
-    for index, task in enumerate(tasks):
-        if task in told:
-            assert told[task] in found[index].because
-        else:
-            assert found[index] == task
+        found = dict(pool.spread(slept, tasks, executor))
+    assert found.pop(1) == pool.Died("it takes longer than 1 s")
+    assert set(found.values()) == {"woke"}
 
 
 class Unreadable:
@@ -134,50 +152,19 @@ def answer(task: int) -> object:
 
 
 def test_an_answer_that_cannot_be_read_costs_no_other() -> None:
-    """Where all processes answer through one pipe, as pebble's do, it ends the pool."""
     with pool.local(2) as executor:
         found = dict(pool.spread(answer, list(range(6)), executor))
     assert "ValueError: invalid literal" in found.pop(1).because
     assert found == {task: task for task in (0, 2, 3, 4, 5)}
 
 
-def test_processes_that_are_killed_while_they_wait_cost_a_task_each() -> None:
-    """As by a system that runs out of memory; those that replace them do the rest."""
+def test_processes_that_are_killed_while_they_wait_cost_no_task() -> None:
+    """As by a system that runs out of memory."""
     with pool.local(2) as executor:
         assert dict(pool.spread(answer, [0, 2], executor)) == {0: 0, 1: 2}
-        assert isinstance(executor, Processes)
-        for process in executor._all:
-            os.kill(process._process.pid or 0, signal.SIGKILL)
-            process._process.join()
+        executor._kill_pool()
         found = dict(pool.spread(answer, [0, 2, 3, 4, 5, 6], executor))
-    died = [result for result in found.values() if isinstance(result, pool.Died)]
-    assert died == [pool.Died("the process died (SIGKILL)")] * 2
-    assert len(found) == 6
-
-
-@pytest.mark.slow
-def test_of_many_that_die_at_once_each_end_is_told_once() -> None:
-    """A process that is replaced while its neighbour dies: some of these were wrong."""
-    tasks = ["dies", "dies", "lives"] * 80
-    with pool.local(8) as executor:
-        found = dict(pool.spread(end, tasks, executor))
-    died = pool.Died("the process died (SIGKILL)")
-    assert [found[i] for i in range(240)] == [died, died, "lives"] * 80
-
-
-def meet(folder: Path) -> bool:
-    """Whether another task is at work at the same time."""
-    (folder / str(os.getpid())).touch()
-    until = time.monotonic() + 20
-    while len(list(folder.iterdir())) < 2 and time.monotonic() < until:
-        time.sleep(0.01)
-    return time.monotonic() < until
-
-
-def test_after_deaths_there_are_as_many_at_once(tmp_path: Path) -> None:
-    with pool.local(2) as executor:
-        list(pool.spread(end, ["dies"] * 3, executor))
-        assert dict(pool.spread(meet, [tmp_path] * 2, executor)) == {0: True, 1: True}
+    assert found == dict(enumerate([0, 2, 3, 4, 5, 6]))
 
 
 @pytest.mark.parametrize("kind", [ThreadPoolExecutor, ProcessPoolExecutor])
@@ -185,10 +172,7 @@ def test_any_executor_serves(kind: Callable[[int], Executor]) -> None:
     with kind(3) as executor:
         found = dict(pool.spread(work, [0, 1, 2, 4, 5, 6], executor))
     assert [found[i] for i in range(4)] == [0, 1, 4, 16]
-    assert [found[4], found[5]] == [
-        pool.Died("ZeroDivisionError: five"),
-        pool.Died("SystemExit: 0"),
-    ]
+    assert [found[4], found[5]] == [pool.Died(TOLD_OF[5]), pool.Died(TOLD_OF[6])]
 
 
 def test_in_threads_one_task_runs_at_a_time() -> None:
@@ -210,44 +194,23 @@ def grown(shared: list[int]) -> int:
 # Engines that fork.
 
 
-def double(task: int) -> int:
+def double(task: Task) -> int:
     """Comes back in two processes, as from a library that forks by itself, one after the other."""
     if os.fork() == 0:
         time.sleep(0.05)
-    return task * task
+    return task.what**2
 
 
 @pytest.mark.slow
 def test_a_task_that_comes_back_twice_is_answered_once() -> None:
-    """Else its second answer would be that of the next task."""
     with pool.local(1) as executor:
-        for task in range(4):
-            assert dict(pool.spread(double, [task], executor)) == {0: task * task}
-            time.sleep(0.1)
+        tasks = [Task(what, "one") for what in range(4)]
+        assert dict(pool.spread(double, tasks, executor)) == {n: n * n for n in range(4)}
 
 
-def helped(task: int) -> int:
-    """Leaves a process behind that holds all it has been given, and dies."""
-    if task == 1 and os.fork() == 0:
-        time.sleep(20)
-        os._exit(0)
-    if task == 1:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return task
-
-
-@pytest.mark.slow
-def test_what_a_task_leaves_running_hides_no_death() -> None:
-    begun = time.monotonic()
-    with pool.local(1) as executor:
-        found = dict(pool.spread(helped, [0, 1, 2], executor))
-    assert found == {0: 0, 1: pool.Died("the process died (SIGKILL)"), 2: 2}
-    assert time.monotonic() - begun < 15  # s: of the 20 that it would be waited for
-
-
-def leaves(task: tuple[Path, bool]) -> None:
-    """Starts a process that outlives it, and tells which; then it may die itself."""
-    told, dies = task
+def leaves(task: Task) -> None:
+    """Starts a process that outlives it and holds all it has been given, and may die itself."""
+    told, dies = task.what
     left = os.fork()
     if left == 0:
         time.sleep(60)
@@ -260,13 +223,16 @@ def leaves(task: tuple[Path, bool]) -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("what an engine starts outlives the run")
 @pytest.mark.skipif(not TOLD, reason="nothing tells what runs")
-@pytest.mark.parametrize("dies", [False, True])
-def test_what_a_task_starts_ends_with_the_pool(dies: bool, tmp_path: Path) -> None:
-    told = tmp_path / "left"
+@pytest.mark.parametrize(("guest", "dies"), [("", False), ("one", False), ("one", True)])
+def test_what_a_task_starts_ends_with_the_pool_and_hides_no_death(
+    guest: str, dies: bool, tmp_path: Path
+) -> None:
+    told, begun = tmp_path / "left", time.monotonic()
     with pool.local(1) as executor:
-        list(pool.spread(leaves, [(told, dies)], executor))
+        found = dict(pool.spread(leaves, [Task((told, dies), guest)], executor))
         left = int(told.read_text(encoding="utf-8"))
-        assert dies or runs(left)
+    assert found == {0: pool.Died("its process ended (SIGKILL)") if dies else None}
+    assert time.monotonic() - begun < 15  # s: of the 60 that it would be waited for
     until = time.monotonic() + 10
     while runs(left) and time.monotonic() < until:
         time.sleep(0.01)
@@ -306,3 +272,46 @@ def test_a_lock_ends_with_who_holds_it_and_not_with_what_it_forked(tmp_path: Pat
     os.waitpid(left, 0)
     os.close(ready)
     os.close(begun)
+
+
+# A cluster's executor does the work where an address is given, and only there.
+
+
+class Client:
+    """As Dask's, with threads for its workers."""
+
+    def __init__(self, address: str, **_: Any) -> None:
+        if "nobody" in address:
+            raise OSError("Timed out trying to connect")
+
+    def __enter__(self) -> "Client":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def get_executor(self) -> Executor:
+        return ThreadPoolExecutor(1)
+
+
+def test_without_an_address_there_is_none() -> None:
+    with cluster(None) as found:
+        assert found is None
+
+
+def test_it_is_the_clients(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=Client))
+    with cluster("tcp://here:8786") as found:
+        assert isinstance(found, Executor)
+
+
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [(None, r"textmech\[dask\]"), (SimpleNamespace(Client=Client), "Timed out")],
+)
+def test_what_cannot_be_reached_is_bad_input(
+    module: object, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", module)
+    with pytest.raises(CaseError, match=words), cluster("tcp://nobody:8786"):
+        pass

@@ -10,7 +10,7 @@ import pytest
 from textmech.reference.integrators import now
 from textmech.reports.batch import selection
 from textmech.reports.batch.cache.key import Keys
-from textmech.reports.batch.cache.store import passing
+from textmech.reports.batch.cache.store import temporary_store
 from textmech.reports.batch.task_results import Results
 from textmech.reports.show import console as say
 from textmech.reports.show import progress
@@ -62,7 +62,7 @@ def test_tasks_tell_their_names_and_a_long_one_counts_for_more() -> None:
         "long": SimpleNamespace(name="a long one", steps=3000.0),
         "short": SimpleNamespace(name="a short one", steps=1000.0),
     }
-    with ThreadPoolExecutor(1) as executor, passing() as store:
+    with ThreadPoolExecutor(1) as executor, temporary_store() as store:
         results = Results(executor, lambda *words: heard.append(words), store, Keys.now(None))
         results.anew("engines", str, tasks)
     assert heard == [

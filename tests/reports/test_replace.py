@@ -1,22 +1,27 @@
-"""A set of files is the old one or the new one, wherever a run is struck."""
+"""A set of files is the old one, the new one, or a mixture that its list does not fit."""
 
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from given.otherwise import otherwise
 
+from textmech.reports.data import runs
+from textmech.reports.system import replace as replacing
 from textmech.reports.system.replace import replace
 
-NAMES = ("a.csv", "b.csv", "c.csv")
+NAMES = ("a.csv", runs.NAME, "s.csv")
 OLD = {name: f"old {name}\n" for name in NAMES}
 NEW = {name: f"new {name}\n" for name in (*NAMES, "d.csv")}
 FORK = multiprocessing.get_context("fork")
-STRIKES = ("mkdir", "open", "rename", "replace")  # what a replacement does to the disk
-SWEEPS = ("unlink", "rmdir")  # after it
+STRIKES = ("mkdir", "open", "replace")  # what a replacement does to the disk
 
 
 def struck(at: int, name: str, strike: Callable[[], None], patch: pytest.MonkeyPatch) -> None:
@@ -56,9 +61,13 @@ def refuse() -> None:
     raise OSError(28, "No space left on device")
 
 
-@pytest.mark.parametrize("name", STRIKES + SWEEPS)
+@pytest.mark.parametrize("name", STRIKES)
 @pytest.mark.parametrize("at", range(1, 6))
-def test_killed_anywhere_the_next_writer_finds_one_run(name: str, at: int, folder: Path) -> None:
+def test_killed_anywhere_each_file_is_whole_and_the_list_is_the_last(
+    name: str, at: int, folder: Path
+) -> None:
+    """Between two files it is a mixture, which the list does not fit; the next run ends it."""
+
     def doomed() -> None:
         with pytest.MonkeyPatch.context() as patch:
             struck(at, name, kill, patch)
@@ -67,32 +76,46 @@ def test_killed_anywhere_the_next_writer_finds_one_run(name: str, at: int, folde
     process = FORK.Process(target=doomed)
     process.start()
     process.join()
-    replace(folder, {})  # whoever writes there next finishes it
-    assert found(folder) in (OLD, NEW)
-    replace(folder, OLD | NEW)
+    files = {path.name: path.read_text() for path in folder.iterdir() if path.is_file()}
+    assert all(text in (OLD.get(name), NEW[name]) for name, text in files.items())
+    if files[runs.NAME] == NEW[runs.NAME]:
+        assert files == NEW
+    replace(folder, NEW)
     assert found(folder) == NEW  # nothing is left of the one that was killed
 
 
-@pytest.mark.parametrize("strike", [interrupt, refuse])
-@pytest.mark.parametrize("name", STRIKES)
 @pytest.mark.parametrize("at", range(1, 6))
-def test_interrupted_or_refused_anywhere_it_is_one_run_and_nothing_more(
-    strike: Callable[[], None],
-    name: str,
-    at: int,
-    folder: Path,
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize("name", STRIKES)
+def test_interrupted_anywhere_it_is_one_run_and_nothing_more(
+    name: str, at: int, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with monkeypatch.context() as patch:
-        struck(at, name, strike, patch)
-        try:
+        struck(at, name, interrupt, patch)
+        with suppress(KeyboardInterrupt):
             replace(folder, NEW)
-        except OSError:
-            assert found(folder) == OLD
-        except KeyboardInterrupt:
-            assert found(folder) in (OLD, NEW)
-        else:
-            assert found(folder) == NEW
+    assert found(folder) in (OLD, NEW)
+
+
+@pytest.mark.parametrize("at", range(1, 5))
+@pytest.mark.parametrize("name", ["mkdir", "open"])
+def test_a_disk_that_is_full_costs_no_old_file(
+    name: str, at: int, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patch:
+        struck(at, name, refuse, patch)
+        with suppress(OSError):
+            replace(folder, NEW)
+    assert found(folder) in (OLD, NEW)
+
+
+@pytest.mark.mutant("the list of a run is written before its tables")
+def test_the_list_that_is_not_the_last_is_seen(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = otherwise(replacing, "name == runs.NAME)", "name != runs.NAME)").replace
+    monkeypatch.setitem(globals(), "replace", first)
+    with pytest.raises(AssertionError):
+        test_killed_anywhere_each_file_is_whole_and_the_list_is_the_last("replace", 2, folder)
 
 
 def test_a_folder_in_the_place_of_a_file_costs_none_of_the_others(folder: Path) -> None:
@@ -119,39 +142,33 @@ def test_two_at_once_are_one_after_the_other(folder: Path) -> None:
     assert set(found(folder)) == set(NEW)
 
 
-@pytest.mark.parametrize("strike", [interrupt, refuse])
-@pytest.mark.parametrize("name", SWEEPS)
-@pytest.mark.parametrize("at", range(1, 6))
-def test_a_sweep_that_is_struck_costs_nothing_and_is_the_next_ones(
-    strike: Callable[[], None], name: str, at: int, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with monkeypatch.context() as patch:
-        struck(at, name, strike, patch)
-        with suppress(KeyboardInterrupt):
-            replace(folder, NEW)
-    assert {name: (folder / name).read_text() for name in NEW} == NEW
-    replace(folder, NEW)
-    assert found(folder) == NEW
+# A folder for one run.
+
+IN_ONE = """\
+import sys
+from textmech.reports.system import termination
+from textmech.reports.system.temporary_folder import temporary_folder
+termination.listen()
+with temporary_folder("textmech-run-") as folder:
+    (folder / "ab").mkdir()
+    print(folder, flush=True)
+    sys.stdin.read()
+"""
 
 
-@pytest.mark.mutant("what is put back is moved back, and deleted by the second try")
-@pytest.mark.parametrize("refused", NEW)
-def test_a_file_that_cannot_be_replaced_costs_no_other(
-    refused: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """As one that a container mounts, or that somebody holds open: nobody takes its place."""
-    whole = Path.replace
-
-    def busy(self: Path, target: Path) -> Path:
-        if target == folder / refused:
-            raise OSError(16, "Device or resource busy")
-        return whole(self, target)
-
-    monkeypatch.setattr(Path, "replace", busy)
-    for _ in range(2):  # and again: nothing of the first try is in the way
-        with pytest.raises(OSError, match="busy"):
-            replace(folder, NEW)
-        assert found(folder) == OLD
-    monkeypatch.undo()
-    replace(folder, NEW)
-    assert found(folder) == NEW
+@pytest.mark.slow
+@pytest.mark.parametrize("times", [1, 5])
+def test_a_temporary_folder_goes_with_a_run_that_is_struck(times: int, tmp_path: Path) -> None:
+    with subprocess.Popen(
+        [sys.executable, "-c", IN_ONE],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+    ) as process:  # fmt: skip
+        assert process.stdout
+        made = Path(process.stdout.readline().strip())
+        assert made.parent == tmp_path
+        for _ in range(times):
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.02)
+        process.wait(10)
+    assert not made.exists()

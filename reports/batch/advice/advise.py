@@ -16,7 +16,7 @@ from ...compare.trial.start import first
 from ...compare.trial.trial import Trial, judged_names, planned
 from ...system.pool import local, workers
 from ..cache.key import Keys
-from ..cache.store import Store, passing
+from ..cache.store import Store, temporary_store
 from ..search.candidate import Candidate
 from ..search.parallel_search import Asking, Known, Search, lost, together
 from ..search.solving import solved
@@ -327,7 +327,7 @@ def advised(
     """
     keys = Keys.now(store)
     with (
-        nullcontext(store) if store else passing() as used,
+        nullcontext(store) if store else temporary_store() as used,
         nullcontext(executor) if executor else local(jobs or workers()) as working,
     ):
         results = Results(working, progress, used, keys)

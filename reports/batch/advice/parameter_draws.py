@@ -14,7 +14,7 @@ from ....cases.load import load
 from ....cases.mistake import CaseError
 from ....cases.trajectory import Trajectory
 from ....reference.solve import Solution
-from ...system.temporary_folder import passing
+from ...system.temporary_folder import temporary_folder
 from ..search.candidate import Candidate
 from ..search.errors import Run, errors
 from ..search.solving import solved
@@ -83,7 +83,7 @@ def drawn(case: Case, seed: int) -> Case | None:
     """
     file = Path(case.source.file)
     data = _varied(read(file).data, np.random.default_rng(seed))
-    with passing("textmech-draw-") as folder:
+    with temporary_folder("textmech-draw-") as folder:
         copy = folder / file.name
         copy.write_text(json.dumps(data), encoding="utf-8")  # JSON is YAML
         try:

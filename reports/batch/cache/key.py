@@ -1,119 +1,93 @@
-"""Makes one word of what a result depends on: case, code, engine, and the machine's rounding."""
+"""Makes the keys of stored results: of the case, our sources, the engine's files, the machine.
+
+Our own sources count by their contents. The files of engines, numpy and scipy count by their
+names, sizes and times: one that was built anew under the same version is another one.
+"""
 
 import os
+import pickle
 import platform
+import re
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field, fields, is_dataclass
-from functools import cache, partial
+from dataclasses import dataclass, field, fields
+from functools import cache
 from hashlib import sha256
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.util import find_spec
 from pathlib import Path
-from types import FunctionType
-from typing import Any
 from uuid import uuid4
 
 import numpy as np
 import scipy
 
+from .... import engines
 from ....cases.case import Case
 from ....engines.engine import Engine
 from ... import BEGUN
 from ...data import pins
-from .digest import Place, Stat, file_stat
-from .parts import BASIS, Parts, home_of, located
 from .store import Store
 
 ROOT = Path(__file__).parents[3]
-REFERENCE = ("cases", "reference", "reports/batch/cache/form.py")
-ROWS = tuple(
-    f"reports/{name}.py"
-    for name in ("data/row", "data/pins", "batch/tasks", "system/limit", "system/table_text")
-)
-_COMPARING = tuple(f"reports/compare/{room}" for room in ("trial", "judge", "events"))
-JUDGING = ("engines/*.py", *_COMPARING, *ROWS)
+OURS, LIBRARIES = "textmech", ("numpy", "scipy")
+ROOMS = ("cases", "reference", "engines", "reports")
+REFERENCE = ("cases", "reference")
+JUDGING = (
+    "engines/*.py", "reports/compare/trial", "reports/compare/judge", "reports/compare/events",
+    "reports/data/row.py", "reports/data/pins.py", "reports/batch/tasks.py",
+    "reports/system/limit.py", "reports/system/table_text.py",
+)  # fmt: skip
 SEARCHING = ("reports/batch/search", *JUDGING)  # no file of it that a search of causes does not run
 TRYING = ("reports/batch/search/candidate.py", "reports/batch/search/errors.py")
 COLLECTING = ("reports/collecting.py",)
 ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_", "GLIBC_TUNABLES", "LD_", "DYLD_")
 """Variables that choose other kernels, or other libraries."""
+_REQUIRED = re.compile(r"[\w.-]+")
+
+Places = tuple[Path, ...]
 
 
 @dataclass(frozen=True)
 class Keys:
-    """The keys of results of the code as it was when the run began."""
+    """The keys of results of the code as it was when the run began.
 
-    files: tuple[tuple[Path, Stat], ...]  # each file of code, and what the disk says of it
-    salt: str  # of code that is newer than the process: nobody else has this word
-    memo: Store | None = None  # of digests; None: no result outlives the run, nor needs them
-    libraries: str = ""  # what is in those that compute
-    _described: dict[int, tuple[object, str]] = field(default_factory=dict, compare=False)
-    _parts: dict[tuple[type, str], Parts] = field(default_factory=dict, compare=False)
-    _read: dict[tuple[str, ...], str] = field(default_factory=dict, compare=False)
+    salt: a word that nobody else has, where code is newer than the process, which has loaded other.
+    libraries: the state of those that compute; None where no result outlives the run.
+    """
+
+    salt: str = ""
+    libraries: str | None = None
+    _states: dict[Places, "State"] = field(default_factory=dict, compare=False)
+    _words: dict[int, tuple[object, str]] = field(default_factory=dict, compare=False)
+    _sources: dict[tuple[str, ...], str] = field(default_factory=dict, compare=False)
 
     @staticmethod
-    def now(memo: Store | None) -> "Keys":
-        """memo: where results last, or None where they go with the run."""
-        files = tuple(_seen())
-        newer = any(max(stat[2], stat[3]) > BEGUN * 1e9 for _, stat in files)
-        return Keys(files, uuid4().hex if newer else "", memo, basis(memo) if memo else "")
+    def now(store: Store | None) -> "Keys":
+        """store: where results last, or None where they go with the run."""
+        ours = tuple(path for room in ROOMS for path in sources(room))
+        state = State.of(ours)
+        salt = uuid4().hex if state.newest > BEGUN else ""
+        return Keys(salt, libraries() if store else None, {ours: state})
 
     def hold(self) -> bool:
-        """Whether the code is still what it was: else a result may be of a mixture.
-
-        Asked for every result. A new file alone changes none: something known must import it.
-        """
-        seen = all(_is(*file) for file in self.files)
-        return seen and all(parts.hold() for parts in self._parts.values())
+        """Whether our sources and the engines are what they were: else results are of a mixture."""
+        with suppress(OSError):
+            return all(State.of(places) == state for places, state in self._states.items())
+        return False
 
     def solution(self, case: Case) -> str:
         """The key of a case's reference."""
-        of = self._once(case, _case), self._code(REFERENCE)
-        return _word("solution", self.salt, *of, machine(), self.libraries)
+        of = self._case(case), self._code(REFERENCE)
+        return _word("solution", self.salt, *of, machine(), self.libraries or "")
 
     def ways(self, case: Case, engine: Engine) -> str:
         """The key of the ways in which an engine would run the case."""
-        of = self._once(engine, self._engine)
-        return _word("ways", self.solution(case), of, self._code(JUDGING))
+        return _word("ways", self.solution(case), self._engine(engine), self._code(JUDGING))
 
     def collected(self, case: Case, engine: Engine) -> str:
         """The key of which ways pytest collects."""
         return _word("collected", self.ways(case, engine), self._code(COLLECTING))
-
-    def _once(self, thing: Any, describe: Callable[[Any], str]) -> str:
-        """A case meets every engine, and an engine every case: each is described once in a run."""
-        if id(thing) not in self._described:
-            self._described[id(thing)] = (
-                thing,
-                describe(thing),
-            )  # kept, so that its id stays its own
-        return self._described[id(thing)][1]
-
-    def _engine(self, engine: Engine) -> str:
-        """Its settings, its version, all files of it and its adapter, and what judges its version.
-
-        A word of its own for what cannot be told from another of its kind, or is newer than the
-        process, which may have loaded what was there before.
-        """
-        try:
-            word = _word(described(engine), engine.version, pins.version(engine.name) or "")
-            if self.memo is None:
-                return word
-            kind = type(engine), engine.name
-            if kind not in self._parts:
-                self._parts[kind] = Parts.of(engine, self.memo)
-            parts = self._parts[kind]
-            return _word(word, parts.word(), uuid4().hex if parts.newer(BEGUN) else "")
-        except (TypeError, OSError):
-            return uuid4().hex
-
-    def _code(self, places: tuple[str, ...]) -> str:
-        """One word for the code of these places: read once in a run."""
-        if places not in self._read:
-            paths = [path for place in places for path in _modules(ROOT / place)]
-            told = (f"{path.name} {sha256(path.read_bytes()).hexdigest()}" for path in paths)
-            self._read[places] = _word(*told)
-        return self._read[places]
 
     def outcome(self, ways: str, realised: str) -> str:
         """The key of what the engine gave in one of the ways under the key `ways`."""
@@ -131,90 +105,167 @@ class Keys:
     def search(self, case: Case, engine: Engine) -> str:
         """The key of a search for what cures the engine's rows: the same on every machine.
 
-        Without the reference's code, which the rows' own errors tell of. Nothing where that cannot
-        be said: of an engine that cannot be described, or of code that is newer than the process.
+        Without the reference's code, which the rows' own errors tell of. Empty where it cannot be
+        said: of somebody else's engine, or of code that is newer than the process.
         """
-        if self.salt:
+        adapter = own_adapter(engine)
+        if self.salt or not adapter:
             return ""
-        try:
-            adapter = home_of(type(engine)).relative_to(ROOT)
-            of = described(engine), self._once(case, _case)
-        except (TypeError, ValueError):  # somebody else's
-            return ""
-        return _word("search", engine.version, *of, self._code((*SEARCHING, str(adapter))))
+        code = self._code((*SEARCHING, adapter))
+        return _word("search", engine.version, repr(engine), self._case(case), code)
 
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
         """The key of all pairs together: two runs with this key compute the same."""
         return _word("run", *(self.ways(case, engine) for case, engine in pairs))
+
+    def _case(self, case: Case) -> str:
+        """All of a case but its text: a comment changes nothing."""
+        if id(case) not in self._words:  # each meets every engine
+            values = [getattr(case, f.name) for f in fields(case) if f.name != "source"]
+            self._words[id(case)] = case, repr(values)  # kept, so that its id stays its own
+        return self._words[id(case)][1]
+
+    def _engine(self, engine: Engine) -> str:
+        """An engine's settings, version and files, and the version that the reports are of.
+
+        A word of its own for an engine that cannot be pickled, has no files, or is newer than the
+        process.
+        """
+        if id(engine) not in self._words:
+            try:
+                word = self._described(engine)
+            except Exception:  # of somebody else's engine
+                word = uuid4().hex
+            self._words[id(engine)] = engine, word
+        return self._words[id(engine)][1]
+
+    def _described(self, engine: Engine) -> str:
+        adapter = own_adapter(engine)
+        options = repr(engine) if adapter else pickle.dumps(engine).hex()
+        word = _word(options, engine.version, pins.version(engine.name) or "")
+        code = self._code((adapter,)) if adapter else ""
+        if self.libraries is None:
+            return _word(word, code)
+        places = tuple(sorted(places_of(engine)))
+        if places not in self._states:
+            self._states[places] = State.of(places)
+        state = self._states[places]
+        return _word(word, code, state.digest, uuid4().hex if state.newest > BEGUN else "")
+
+    def _code(self, places: tuple[str, ...]) -> str:
+        """The digest of our sources at these places, by their contents."""
+        if places not in self._sources:
+            paths = [path for place in places for path in sources(place)]
+            words = (f"{path.name} {sha256(path.read_bytes()).hexdigest()}" for path in paths)
+            self._sources[places] = _word(*words)
+        return self._sources[places]
 
 
 def _word(*parts: str) -> str:
     return sha256("\0".join(parts).encode()).hexdigest()
 
 
-def _case(case: Case) -> str:
-    """Describes the case by all but its text: a comment changes nothing."""
-    return described({f.name: getattr(case, f.name) for f in fields(case) if f.name != "source"})
+def sources(place: str) -> list[Path]:
+    """Our modules in a folder, or by the pattern of a file's name, sorted."""
+    path = ROOT / place
+    return sorted(path.rglob("*.py") if path.is_dir() else path.parent.glob(path.name))
 
 
-def described(value: Any) -> str:
-    """Equal for equal values, and for no others. Raises TypeError where that cannot be said."""
-    kind = type(value)
-    name = f"{kind.__module__}.{kind.__qualname__}"
-    match value:
-        case None | bool() | int() | float() | str() | bytes():
-            return f"{kind.__name__} {value!r}"
-        case list() | tuple():
-            return f"{name}[{', '.join(map(described, value))}]"
-        case set() | frozenset():
-            return f"{name}[{', '.join(sorted(map(described, value)))}]"
-        case Mapping():
-            items = (f"{described(k)}: {described(v)}" for k, v in value.items())
-            return f"map[{', '.join(items)}]"
-        case np.ndarray():
-            return f"{value.dtype}{value.shape}{sha256(value.tobytes()).hexdigest()}"
-        case FunctionType() if "<" not in value.__qualname__:
-            return f"{value.__module__}.{value.__qualname__}"
-        case partial():
-            return f"partial{described((value.func, value.args, value.keywords))}"
-        case type():
-            return f"{value.__module__}.{value.__qualname__}"
-        case _ if is_dataclass(value):
-            return name + described({f.name: getattr(value, f.name) for f in fields(value)})
-    raise TypeError(f"{name} cannot be described")
+@dataclass(frozen=True)
+class State:
+    """A digest of files by name, size and time, and when the newest was changed [s]."""
+
+    digest: str
+    newest: float
+
+    @staticmethod
+    def of(places: Iterable[Path]) -> "State":
+        """The state of all files in folders, and of single files. Raises OSError."""
+        words, newest = list[str](), 0
+        for place in places:
+            for name, file in sorted(_files(str(place))):
+                words.append(f"{name} {file.st_size} {file.st_mtime_ns}")
+                newest = max(newest, file.st_mtime_ns, file.st_ctime_ns)
+        return State(_word(*words), newest / 1e9)
 
 
-def _modules(place: Path) -> Iterable[Path]:
-    if place.is_dir():
-        return sorted(place.rglob("*.py"))
-    return [place] if place.is_file() else sorted(place.parent.glob(place.name))
+def _files(place: str) -> Iterator[tuple[str, os.stat_result]]:
+    if os.path.isfile(place):
+        yield os.path.basename(place), os.stat(place)
+    for folder, folders, names in os.walk(place):
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        for name in names:
+            path = os.path.join(folder, name)
+            with suppress(FileNotFoundError):  # a link that leads nowhere
+                yield path, os.stat(path)
 
 
-def _is(path: Path, stat: Stat) -> bool:
-    """Whether the file is what was seen."""
-    with suppress(OSError):
-        return file_stat("", path.stat()) == stat
-    return False
+def libraries() -> str:
+    """The state of those that compute; a word of its own where they are newer than the process."""
+    places = [place for name in LIBRARIES for place in _places(distribution(name))]
+    state = State.of(sorted({*places}))
+    return uuid4().hex if state.newest > BEGUN else state.digest
 
 
-def _seen() -> Iterable[tuple[Path, Stat]]:
-    for room in ("cases", "reference", "engines", "reports"):
-        for path in _modules(ROOT / room):
-            yield path, file_stat("", path.stat())
+def own_adapter(engine: Engine) -> str:
+    """The folder of ours that the engine's code lies in; empty for somebody else's."""
+    names = type(engine).__module__.split(".")
+    return "/".join(names[1:3]) if names[0] == OURS else ""
 
 
-def basis(memo: Store) -> str:
-    """The contents of the libraries that compute, tests left out; memo: what is known of them.
+def places_of(engine: Engine) -> set[Path]:
+    """The files and folders of an engine: of its distribution, and of what a plug-in requires.
 
-    A word that nobody else has where they are newer than the process, which has loaded others.
+    Raises ValueError where its code lies in no file.
     """
-    folders = [folder for name in BASIS for folder in located(name)]
-    libraries = [folder.with_name(f"{folder.name}.libs") for folder in folders]
-    places = [Place(path, tests=False) for path in [*folders, *libraries] if path.exists()]
-    stats = [place.stats() for place in places]
-    if any(max(file[2], file[3]) > BEGUN * 1e9 for files in stats for file in files):
-        return uuid4().hex
-    return _word(*(p.contents(files, memo).digest for p, files in zip(places, stats, strict=True)))
+    if own_adapter(engine):
+        with suppress(PackageNotFoundError):  # the book is none
+            return {*_places(distribution(engine.name))}
+        return set()
+    places = {*_located(type(engine).__module__.partition(".")[0])}
+    if not places:
+        raise ValueError(f"{type(engine).__module__} is in no file")
+    provided = engines.distribution(engine.name)
+    if provided is not None and provided.name != OURS:
+        for each in _with_required(provided):
+            places |= {*_places(each)}
+    return places
+
+
+def _with_required(first: Distribution) -> list[Distribution]:
+    """A distribution, and the installed ones that it requires, and these in turn."""
+    distributions, names = [first], {first.name, OURS, *LIBRARIES}
+    for each in distributions:  # grows meanwhile
+        for requirement in each.requires or ():
+            match = _REQUIRED.match(requirement)
+            if match and "extra ==" not in requirement and match[0] not in names:
+                names.add(match[0])
+                with suppress(PackageNotFoundError):
+                    distributions.append(distribution(match[0]))
+    return distributions
+
+
+def _places(installed: Distribution) -> Iterator[Path]:
+    """Where a distribution's modules are loaded from, and the libraries linked beside them."""
+    record = (installed.read_text("RECORD") or "").splitlines()
+    tops = {line.partition(",")[0].partition("/")[0] for line in record}
+    for top in sorted(tops | {*(installed.read_text("top_level.txt") or "").split()}):
+        if top.endswith(".libs"):
+            yield Path(str(installed.locate_file(top)))
+        elif not top.endswith("-info"):
+            yield from _located(top.partition(".")[0])
+
+
+def _located(name: str) -> list[Path]:
+    """The folders and the file of a module, as it was loaded, else as Python would find it."""
+    spec = None
+    with suppress(ImportError, ValueError):
+        spec = find_spec(name) if name.isidentifier() else None
+    if spec is None:
+        return []
+    folders = [Path(folder) for folder in spec.submodule_search_locations or ()]
+    file = Path(spec.origin) if spec.origin and os.path.isfile(spec.origin) else None
+    return [*folders, file] if file and file.parent not in folders else folders
 
 
 @cache
@@ -224,9 +275,9 @@ def machine() -> str:
     Not how many cores it has: nothing here multiplies matrices so large that a library would share
     them out, and rows of one and of many were always the same.
     """
-    found = np.show_config(mode="dicts") or {}
+    built = np.show_config(mode="dicts") or {}
     variables = {k: v for k, v in os.environ.items() if k.startswith(ROUNDING)}
-    return described(
+    return repr(
         (
             sys.version,
             sys.flags.optimize,  # without assertions code is other code
@@ -235,9 +286,9 @@ def machine() -> str:
             platform.libc_ver(),
             np.__version__,
             scipy.__version__,
-            found.get("SIMD Extensions", {}),
+            built.get("SIMD Extensions", {}),
             _processor(),
-            dict(sorted(variables.items())),
+            sorted(variables.items()),
         )
     )
 

@@ -10,7 +10,7 @@ from textmech.reports.batch.advice import advise as cuts
 from textmech.reports.batch.advice import criterion as bars
 from textmech.reports.batch.advice.criterion import Bar
 from textmech.reports.batch.cache.key import Keys
-from textmech.reports.batch.cache.store import passing
+from textmech.reports.batch.cache.store import temporary_store
 from textmech.reports.batch.search.candidate import Candidate
 from textmech.reports.batch.search.errors import Run, errors
 from textmech.reports.batch.search.parallel_search import Known
@@ -23,7 +23,7 @@ HARD = {"integrator": "RK4", "connect": {"solimp": [0.9999, 0.9999, 0.001]}}
 @pytest.mark.slow
 def test_each_joint_is_once_the_last() -> None:
     (engine,) = choose_engines(["mujoco.shipped"], [])
-    with passing() as store:
+    with temporary_store() as store:
         key = Keys.now(store)
 
         def orders(name: str) -> list[str]:
@@ -40,7 +40,7 @@ def test_what_keeps_the_bar_here_may_not_elsewhere() -> None:
     """The closing pin as soft as shipped: within by far cut at D, and twice too far off at A."""
     (engine,) = choose_engines(["mujoco.shipped"], [])
     case, candidate = scenes.EVERY["four_bar"], Candidate.of(HARD, 2e-3)
-    with passing() as store:
+    with temporary_store() as store:
         pair = Pair(case, engine, store, Keys.now(store).solution(case))
         here, *others = [
             Bar({candidate: errors(Run(each, candidate))}, 1.0).worst(candidate)[0]
