@@ -6,6 +6,7 @@ columns are typed by a person: why a mistake survives, and what was done then.
 """
 
 import argparse
+import json
 import os
 import random
 import re
@@ -49,7 +50,7 @@ CONFIG = """\
 module-path = {folders}
 timeout = {all}
 excluded-modules = []
-test-command = {command!r}
+test-command = {command}
 [cosmic-ray.distributor]
 name = "local"
 """
@@ -109,14 +110,15 @@ def run(count: int, seed: int, jobs: int) -> Iterator[dict[str, Any]]:
         clones = [Path(folder) / str(job) / NAME for job in range(jobs)]
         for clone in clones:
             _clone(clone)
-        _cosmic_ray(clones[0], "init", "all.sqlite")
+        _cosmic_ray(clones[0], "baseline")  # what fails without a mistake sees none
+        _cosmic_ray(clones[0], "init", "../all.sqlite")
         with use_db(str(clones[0].parent / "all.sqlite"), WorkDB.Mode.open) as db:
             drawn = draw(list(db.work_items), count, seed)
         threads = []
         for job, clone in enumerate(clones):
             with use_db(str(clone.parent / "drawn.sqlite"), WorkDB.Mode.create) as db:
                 db.add_work_items(drawn[job::jobs])
-            words = (clone, "exec", "drawn.sqlite")
+            words = (clone, "exec", "../drawn.sqlite")
             threads.append(threading.Thread(target=_cosmic_ray, args=words))
             threads[-1].start()
         for thread in threads:
@@ -140,12 +142,12 @@ def _clone(clone: Path) -> None:
     subprocess.run(["git", "clone", "--quiet", str(ROOT), str(clone)], check=True)
     engines = "--textmech-engine=mujoco.tuned --textmech-engine=pymunk.tuned"
     command = COMMAND.format(memory=MEMORY, python=sys.executable, each=EACH, engines=engines)
-    text = CONFIG.format(folders=FOLDERS, all=ALL, command=command)
+    text = CONFIG.format(folders=FOLDERS, all=ALL, command=json.dumps(command))
     (clone.parent / "config.toml").write_text(text, encoding="utf-8")
 
 
-def _cosmic_ray(clone: Path, what: str, session: str) -> None:
-    words = [sys.executable, "-m", "cosmic_ray.cli", what, "../config.toml", f"../{session}"]
+def _cosmic_ray(clone: Path, what: str, *session: str) -> None:
+    words = [sys.executable, "-m", "cosmic_ray.cli", what, "../config.toml", *session]
     subprocess.run(words, cwd=clone, check=True, env=environment(clone))
 
 
