@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.language.check.cost import LIMIT
+from ...cases.language.check.work import LIMIT
 from ...engines.engine import Claims, Diverged, Engine, Paced, Plan, Refusal, Tunable, lacking
 from ...reference.solve import solve
 from ..data.row import DEVIATES, REFUSED
