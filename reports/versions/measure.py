@@ -94,7 +94,8 @@ def _measured(release: Release, code: int, said: str, out: Path, asked: Sequence
     version = folder.versions.get(release.engine)
     if version is None or not alike(version, release.version):
         what = f"is asked for, and Python finds {version or 'none'}"
-        raise CaseError([release.mistake(what)])
+        anew = f"if its folder in `{ENVIRONMENTS}` of the cache is damaged, delete that"
+        raise CaseError([release.mistake(f"{what}; {anew}")])
     return Measured(release, folder)
 
 
