@@ -11,12 +11,10 @@ from contextlib import contextmanager
 from numpy.linalg import LinAlgError
 
 from ..cases.case import Case
-from ..cases.language.check import cost
-from ..cases.language.check.work import GO_ON
+from ..cases.language.check.work import GO_ON, LIMIT
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene.forces.force import Force
 from ..cases.scene.frame import SPACE
-from ..cases.scene.islands import apart
 from ..cases.scene.joint import Joint
 from .integrators.budget import Endless, budget
 from .laws.rotation import axes
@@ -29,7 +27,6 @@ from .motion.zeno import ZenoError
 from .start.assembly import closure_of, size_of
 from .system import Array, Pose
 
-MOST = cost.LIMIT  # s: the largest shipped case takes 8
 STEEP = 1e-2  # of a blade's length: steps give up well before its shadow is gone
 SHORT = 1e-3  # of the mechanism's size: steps give up well before the length is zero
 SHARP = 1e7  # sharpness times static friction: 6e5 of the book's can be followed, 6e7 not always
@@ -42,15 +39,14 @@ DEPENDENT = 1e-2  # singular values below this part of the largest: the same, fo
 @contextmanager
 def bounded(case: Case) -> Iterator[None]:
     """Turns what takes too long or too much memory, or leaves the doubles, into CaseError."""
-    scenes = () if case.states else apart(case.scene, case.system, case.events)
-    laws = case.samples * sum(cost.laws(scene) for scene in scenes)
     try:
-        with budget(math.inf if case.long else MOST - laws, cost.evaluation(case.scene)):
+        with budget(math.inf if case.long else LIMIT):
             yield
     except Endless as endless:
-        what = f"the reference {endless}, and the limit is {MOST / 60:g} minutes: "
-        found = case.mistake(("duration",), what + GO_ON)
-        if endless.ways:
+        what = f"the reference {endless}, and that is the limit: "
+        place = ("duration",) if case.states is None else ("states", "random")
+        found = case.mistake(place, what + GO_ON)
+        if endless.among:
             found = case.mistake(_where(case, endless.among), what + _fewer(endless.among))
         raise CaseError([found]) from endless
     except MemoryError as error:

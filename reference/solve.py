@@ -15,7 +15,6 @@ import numpy as np
 import scipy
 
 from ..cases.case import Case
-from ..cases.language.check import cost
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene.frame import SPACE
 from ..cases.scene.quantity import table, told_by
@@ -26,7 +25,6 @@ from .certificate.certify import certify
 from .certificate.errors import beyond
 from .coverage import noting
 from .determined import check_determined
-from .integrators.budget import apart
 from .integrators.now import begun, doing
 from .islands import Island, joined, parts, together
 from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechanism
@@ -73,7 +71,6 @@ def _moved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     for k, part in enumerate(cases, start=1):
         if len(cases) > 1:
             begun(f"{case.name}, island {k} of {len(cases)}")
-            apart(cost.evaluation(part.scene))
         try:
             found.append(_solved(part))
         except CaseError as error:

@@ -1,6 +1,5 @@
 """Named laws in time."""
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
@@ -77,15 +76,3 @@ RATES: dict[Law, Callable[[Signal, Array], Any]] = {
     ),
 }
 """(N,) how fast it changes, of laws without corners."""
-
-
-def fastest(signal: Signal, until: float) -> float:
-    """The largest size that it has up to a time [s]: how fast it drives, if it is a rate."""
-    if signal.law == "sine":
-        return math.hypot(*signal.amplitude)
-    corners = [t for t in signal.times if t < until]
-    times = np.array([0.0, *corners, *np.linspace(0.0, until, FINE)])
-    return float(np.max(np.linalg.norm(signal.at(times), axis=1)))
-
-
-FINE = 33  # a polynomial may be largest between its ends; only its magnitude is asked for

@@ -248,9 +248,8 @@ def march(
             if taken == most:
                 raise IntegrationError(f"more than {most} steps", walker.t)
             taken += 1
-            before = method.evaluations
             step = walker.step(target)
-            spend(method.evaluations - before, walker.t)
+            spend(walker.t)
             yield step
 
 

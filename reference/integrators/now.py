@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 class Now:
     """In words what is being done, since when, and how far it is of how much: of s, or of states.
 
-    task: of what, as `four_bar`. unit: empty for numbers of things.
+    task: of what, as `four_bar`. unit: empty for numbers of things. motions: of the task, so far.
     """
 
     task: str = ""
@@ -20,6 +20,7 @@ class Now:
     begin: float = 0.0
     end: float = 0.0
     unit: str = "s"
+    motions: int = 0
     since: float = field(default_factory=time.monotonic)
 
     def text(self) -> str:
@@ -43,7 +44,7 @@ SURE = 0.02  # of a part: before that much is done nobody knows how long the res
 
 def begun(task: str) -> None:
     """Says of what all that follows is done."""
-    NOW.task = task
+    NOW.task, NOW.motions = task, 0
     doing("")
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.linalg import LinAlgError
 from numpy.typing import NDArray
 
-from ..integrators.budget import motion, spend
+from ..integrators.budget import motion
 from ..integrators.explicit import DormandPrince
 from ..integrators.implicit import Radau
 from ..integrators.march import IntegrationError, Method, Slope, Step, march
@@ -34,7 +34,6 @@ from .zeno import (
 
 TOLERANCE = 1e-15  # per step; the integrators do not go below 4 ε, so: as well as doubles can
 STAGES = 5  # of the implicit integrator
-GUARD = 3  # evaluations that looking at a guard in a step is worth: judged, not measured
 
 Chosen = Callable[[Mode, Slope, int], Method]
 """(mode, its slope, size of y) → the integrator that follows it."""
@@ -193,7 +192,7 @@ class _Walk:
         falls = [here(_falling(mode, guard)) for guard in guards]
         f, bare = here(watched), here(slope(mode))
         method, probe = self.by(mode, f, len(self.now)), self.by(mode, bare, len(self.now))
-        early, begins, probed = Early(bare, self.now, ends.tolist()), True, 0
+        early, begins = Early(bare, self.now, ends.tolist()), True
         for step in march(method, ends, self.now, anew=bool(self.changes) and not mode.stiff):
             self.steps += 1
             state = inside(step, probe)
@@ -217,8 +216,6 @@ class _Walk:
             room = early.rounding(step.t, points) if found is not None else None
             if room is not None:
                 found, touched = fallen(rounding=room)
-            spend(probe.evaluations - probed + GUARD * len(guards), step.t)
-            probed = probe.evaluations
             for i, at in touched:
                 self.touched.append(Touch(guards[i].event, step.t + at, guards[i].jumps))
             if found is not None:

@@ -11,9 +11,8 @@ from functools import cached_property
 import numpy as np
 from numpy.linalg import LinAlgError
 
-from ..integrators.budget import spend
 from ..integrators.march import AT_ONCE, span
-from ..integrators.slope import POINTS, Slope, leaps, noise
+from ..integrators.slope import Slope, leaps, noise
 from ..system import Array
 from .event_location import INSIDE, Fall, Rounding
 
@@ -39,7 +38,6 @@ class Early:
     def noise(self) -> Array | None:
         """The rounding of ẏ as it begins; None if that is no small part of it."""
         f, t, far = self.f, self.times[0], self.lasts
-        spend(POINTS, t)
         with np.errstate(all="ignore"):
             try:
                 least, later = leaps(f, t, self.y, far), np.abs(f(self.times[-1], self.y))

@@ -18,7 +18,8 @@ from ...cases.trajectory import Trajectory
 from ..certificate.agreement import Check, difference, relative, worst
 from ..certificate.errors import EPS, beyond, errors
 from ..coverage import equation
-from ..integrators.now import doing, reached
+from ..integrators.budget import spend
+from ..integrators.now import doing
 from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..stated import Stated
 from ..system import Array, Mass, Pose, Vector
@@ -102,7 +103,7 @@ def rows(case: Case, mode: Stated) -> Iterator[Row]:
     stacked = np.stack([drawn[name] for name in mode.coordinates], axis=1)  # (N, n, 3)
     doing("its states", 0.0, len(stacked), unit="")
     for k, row in enumerate(stacked):
-        reached(k)
+        spend(k)
         yield row[:, 0], row[:, 1], row[:, 2]
 
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from ...cases.case import Case
-from ...cases.language.check.cost import LIMIT
+from ...cases.language.check.work import LIMIT
 from ...cases.mistake import CaseError
 from ...cases.trajectory import Trajectory
 from ...engines import guest

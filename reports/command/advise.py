@@ -47,12 +47,6 @@ PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what eac
     help="How often the worst error has to fit into what is allowed.",
 )
 @click.option(
-    "--robust",
-    is_flag=True,
-    help="Try the recipe with six draws of the case's parameters, each up to 10 % off; "
-    "those with a unit of their own, such as angles in degrees, stay as they are.",
-)
-@click.option(
     "--all",
     "every",
     is_flag=True,
@@ -75,7 +69,6 @@ def advise(
     names: tuple[str, ...],
     tolerance: float | None,
     margin: float,
-    robust: bool,
     every: bool,
     out: Path | None,
     overwrite: bool,
@@ -124,23 +117,21 @@ def advise(
     if long := too_long(chosen, engines):
         raise CaseError(long)
     used = None if no_cache else store.usable()
-    front, table, draws = not (every or wants_json), list[Advice](), list[dict[str, int]]()
+    front, table = not (every or wants_json), list[Advice]()
     listener = Listener(partial(_say, shipped_lines), partial(_say, stopped_lines))
     with progress.progress() as shown, finished(used is not None):
         for each in [None, PART] if every and tolerance is None else [tolerance]:
-            asked = Requirement(each, margin, front=front, robust=robust)
+            asked = Requirement(each, margin, front=front)
             with advised(
                 chosen, engines, asked, jobs=jobs, progress=shown, store=used,
                 listener=listener if front else None,
             ) as found:  # fmt: skip
                 for one in found:
-                    table += (mine := rows(one))
-                    draws += [asdict(held) for held in one.draws] or [{} for _ in mine]
+                    table += rows(one)
                     for line in advice_lines(one) if front else ():
                         say(line)
         if wants_json:
-            told_rows = [asdict(one) | more for one, more in zip(table, draws, strict=True)]
-            document.write({"advice": told_rows, "exit_code": 0})
+            document.write({"advice": [asdict(row) for row in table], "exit_code": 0})
     if out is not None:
         write.advice(table, out, overwrite=overwrite)
         DONE.append(f"the advice is in {out}")

@@ -36,9 +36,9 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
     \b
       works      within 5 % of the motion; how near, is what `textmech run` measures
       refused    for the engine's own reason, which is no mistake
-      wrong      by how much, at a quarter of the step too. `as if` tells a mistake that explains
-                 it: the motion agrees once that is undone, or made in the reference. Where none is
-                 told it may be the engine's own model, as of soft joints
+      wrong      by how much, at a quarter of the step too. `as if` tells a typical mistake of the
+                 readout that explains it: the motion agrees once that is undone. Where none is
+                 told, look at what the engine is given of the scene, and at its own model
       crashed    it raised an exception, ended its process, or took too long
       not there  an optional member, and what is lost without it
 

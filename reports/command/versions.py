@@ -56,8 +56,7 @@ def versions(
     from ..output import write
     from ..versions.measure import measure
     from ..versions.release import parted
-    from ..versions.table import NAME, steps, table
-    from ..versions.text import text
+    from ..versions.table import NAME, table, text
 
     releases, named = parted(words)
     if out is not None:
@@ -68,10 +67,9 @@ def versions(
         warnings.simplefilter("ignore")  # an engine that is broken here may not be asked for
         names = sorted({release.engine for release in releases})
         choose_engines(names, settings, long=allow_long)  # a mistake in own options is found now
-    measured = [*measure(releases, chosen, settings, jobs, allow_long, tell)]
-    found = steps(measured)
+    found = table([*measure(releases, chosen, settings, jobs, allow_long, tell)], cases)
     if out is not None:
-        write.write({NAME: table(found, cases)}, out, overwrite=overwrite)
+        write.write({NAME: found}, out, overwrite=overwrite)
         DONE.append(f"{NAME} is in {out}")
     say(text(found, shutil.get_terminal_size().columns))
     if out is not None:

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ...cases.case import Case
-from ...cases.language.check.cost import LIMIT
+from ...cases.language.check.work import LIMIT
 from ...engines.engine import Claims, Diverged, Engine, Paced, Plan, Refusal, Tunable, lacking
 from ...reference.solve import solve
 from ..data.row import DEVIATES, REFUSED
@@ -207,14 +207,7 @@ def _motion(attempt: Attempt) -> Mark:
         )
         return attempt.mark("works", what, off=off)
     told = ", ".join(f"{name} {_percent(x)}" for name, x in _largest(shares) if x > ROUGH)
-    since = " from the start on" if _elsewhere(found) else ""
-    return attempt.mark("wrong", f"off{since}: {told}{how}", off=off, likely=explained(found))
-
-
-def _elsewhere(found: Compared) -> bool:
-    """Whether the first sample is no start already."""
-    begins = ((found.states[n][0], rows[0]) for n, rows in found.reference.states.items())
-    return not all(np.allclose(a, b, rtol=ROUGH, atol=ROUGH) for a, b in begins)
+    return attempt.mark("wrong", f"off: {told}{how}", off=off, likely=explained(found))
 
 
 def _percent(share: float) -> str:
@@ -285,18 +278,4 @@ def _states(attempt: Attempt) -> Mark:
         told = f"{len(off) - 1} quantities"  # beside the audit
         return attempt.mark("works", "; but ".join([told, *deviates]))
     told = [f"{row.quantity} {row.because or f'×{row.ratio:.2g} its tolerance'}" for row in wrong]
-    likely = [_multiple(trial, row.quantity, outcome.samples) for row in wrong]
-    return attempt.mark("wrong", "; ".join(told[:3]), likely=tuple(filter(None, likely)))
-
-
-def _multiple(trial: Trial, name: str, samples: Mapping[str, Any]) -> str:
-    """Where a quantity is the same multiple of what it should be in all states."""
-    if name not in samples:
-        return ""
-    found, wanted = np.ravel(samples[name]), np.ravel(trial.wanted(name))
-    at = int(np.argmax(np.abs(wanted)))
-    times = found[at] / wanted[at]
-    if not np.allclose(found, times * wanted, rtol=1e-9, atol=1e-9 * abs(wanted[at])):
-        return ""
-    said = factor(name, float(found[at]), float(wanted[at]), trial.case.scene)
-    return f"{name}: {said}" if said else ""
+    return attempt.mark("wrong", "; ".join(told[:3]))

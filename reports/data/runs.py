@@ -74,6 +74,18 @@ def read(folder: Path) -> dict[str, Written]:
     return found
 
 
+def table(path: Path) -> list[dict[str, str]]:
+    """Returns the rows of a table by column. Raises OSError; ValueError if no run left it so."""
+    text, written = content.text(path), read(path.parent)
+    try:
+        rows = [*csv.DictReader(StringIO(text, newline=""), strict=True)]
+    except csv.Error as error:
+        raise ValueError(f"{path}: is no CSV: {error}") from None
+    if what := doubt(path.name, len(rows), text, written):
+        raise ValueError(f"{path}: {what}")
+    return rows
+
+
 def _fits(pattern: str, cell: str) -> bool:
     return re.fullmatch(pattern, cell, re.ASCII) is not None
 

@@ -4,7 +4,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from dataclasses import replace as changed
-from io import StringIO
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -134,21 +133,19 @@ def read(path: Path, kind: type[Row]) -> list[Row]:
 
     Raises ValueError if the file was cut, or stands beside reports of another run.
     """
-    text, written = content(path), runs.read(path.parent)
-    frame = pd.read_csv(StringIO(text), dtype=str, keep_default_na=False)
-    if doubt := runs.doubt(path.name, len(frame), text, written):
-        raise ValueError(f"{path}: {doubt}")
+    records, written = runs.table(path), runs.read(path.parent)
     for name in NAMES if path.name in NAMES else ():  # advice and versions are runs of their own
         other = written.get(name)
         if other is not None and other.run != written[path.name].run:
             raise ValueError(f"{path}: of another run than {name} beside it: run both again")
     numbers = {column.name for column in fields(kind) if "float" in str(column.type)}
     counts = {column.name for column in fields(kind) if column.type is int}
-    if lacking := [column.name for column in fields(kind) if column.name not in frame.columns]:
+    columns = [column.name for column in fields(kind)]
+    if lacking := [name for name in columns if records and name not in records[0]]:
         raise ValueError(f"{path}: has no column {lacking[0]!r}: of another version of textmech?")
     rows: list[Row] = []
-    for record in frame[[column.name for column in fields(kind)]].to_dict("records"):
-        values: dict[str, Any] = {str(name): text for name, text in record.items()}
+    for record in records:
+        values: dict[str, Any] = {name: record[name] for name in columns}
         values |= {name: _number(values[name]) for name in numbers}
         values |= {name: int(values[name]) for name in counts}
         rows.append(kind(**values))

@@ -62,10 +62,10 @@ def advice_lines(one: Advised) -> Iterator[str]:
             yield "  the nearest"
             yield from _found(one, candidate)
             yield from _paste(one, candidate)
-    for place, (want, recipe) in enumerate(one.wanted):
+    for want, recipe in one.wanted:
         step = milliseconds(recipe.step)
         yield f"  {HEADS.get(want, want)}: {words(recipe.choice)}, {step}"
-        yield from _recipe(one, recipe, place)
+        yield from _recipe(one, recipe)
     if one.asked.front:
         yield "  cost against error, each point a fifth better at least than what costs less"
         yield from (f"    {line}" for line in _front(one))
@@ -82,7 +82,7 @@ def _measured_on(one: Advised) -> Iterator[str]:
         yield f"  measured in our model alone, where {ours}"
 
 
-def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
+def _recipe(one: Advised, recipe: Recipe) -> Iterator[str]:
     assert one.kitchen is not None
     candidate = recipe.candidate
     yield from _found(one, candidate)
@@ -92,8 +92,6 @@ def _recipe(one: Advised, recipe: Recipe, place: int) -> Iterator[str]:
     measured = ratio(one.pair, candidate, one.shipped)
     beside = "" if measured is None else f", measured here ×{measured:.2g}"
     yield f"    costs ×{cost:.2g} of shipped{beside}"
-    if one.draws:
-        yield f"    {one.draws[place]}"
     yield from _paste(one, candidate)
 
 

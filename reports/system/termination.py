@@ -82,17 +82,6 @@ def with_parent() -> None:
         _WATCHED[0].start()
 
 
-def with_stdin() -> None:
-    """From now on this process ends when its stdin does, whose other end its parent holds."""
-
-    def watch() -> None:
-        while os.read(0, 1):
-            pass
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
-
-
 def known_signals() -> list[signal.Signals]:
     """The signals among `SIGNALS` that this system has."""
     return [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]

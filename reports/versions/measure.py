@@ -1,33 +1,25 @@
 """Runs `textmech run` with each release in a process of its own.
 
-References are solved once, and lie in the store.
+References are solved once, and lie in the cache.
 """
 
 import json
 import os
+import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from ...cases.mistake import CaseError, Mistake
 from ..batch.cache.store import FOLDER, by_default, usable
 from ..data.row import CRASHED, REFUSED
 from ..output.diff.columns import ERRORS
 from ..output.diff.folder import Folder, opened
-from ..system import child
-from ..system.temporary_folder import temporary_folder
 from .release import Release, alike, place
 
 ENVIRONMENTS = "versions"  # in the user's cache
-COMMAND = """\
-from textmech.reports.system.termination import with_stdin
-with_stdin()
-from textmech.reports.start import main
-main()
-"""
-"""`textmech`, which ends with whoever started it; it watches before seconds of imports."""
 DONE = (0, 1)
 """The exit codes of a run that was done: that a verdict FAILS is a finding here."""
 
@@ -58,28 +50,23 @@ def measure(
     words = [word for setting in settings for word in ("--settings", setting)]
     words += ["--jobs", str(jobs)] if jobs else []
     words += ["--allow-long"] if long else []
-    with _cache() as cache:
+    with TemporaryDirectory(prefix="textmech-releases-") as passing:
+        cache = Path(passing) if usable() is None else by_default()
         places = [place(release, cache / ENVIRONMENTS, tell) for release in releases]
-        for release, found in zip(releases, places, strict=True):
+        for i, (release, found) in enumerate(zip(releases, places, strict=True)):
             tell(f"running {release}")
-            with temporary_folder("textmech-release-") as out:
-                asked = ["--json", "--engine", release.engine, "--out", out, *words, "--", *cases]
-                code, said = child.run(
-                    [sys.executable, "-P", "-c", COMMAND, "run", *asked],
-                    env=_environment(found, cache),
-                    heard="stdout",
-                )
-                yield _measured(release, code, said, out, ["--engine", "--settings", *settings])
-
-
-@contextmanager
-def _cache() -> Iterator[Path]:
-    """The user's, or one for this command where it cannot be written to."""
-    if usable() is not None:
-        yield by_default()
-        return
-    with temporary_folder("textmech-releases-") as folder:
-        yield folder
+            out = Path(passing) / str(i)
+            asked = ["--json", "--engine", release.engine, "--out", out, *words, "--", *cases]
+            done = subprocess.run(
+                [sys.executable, "-P", "-m", "textmech", "run", *asked],
+                env=_environment(found, cache),
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                check=False,
+            )
+            said = done.stdout.decode(errors="replace")
+            own = ["--engine", "--settings", *settings]
+            yield _measured(release, done.returncode, said, out, own)
 
 
 def _environment(found: Path | None, cache: Path) -> dict[str, str]:
@@ -102,12 +89,13 @@ def _measured(release: Release, code: int, said: str, out: Path, asked: Sequence
             why = "; ".join(" ".join(mistake.what.split()) for mistake in mistakes)
             return Measured(release, None, REFUSED, f"adapter: {why}")
         above = "" if mistakes else ": what is wrong is said above"
-        raise CaseError([_wrong(release, f"was not run{above}"), *mistakes])
+        raise CaseError([release.mistake(f"was not run{above}"), *mistakes])
     (folder,) = opened({str(release): out})
     version = folder.versions.get(release.engine)
     if version is None or not alike(version, release.version):
         what = f"is asked for, and Python finds {version or 'none'}"
-        raise CaseError([_wrong(release, what)])
+        anew = f"if its folder in `{ENVIRONMENTS}` of the cache is damaged, delete that"
+        raise CaseError([release.mistake(f"{what}; {anew}")])
     return Measured(release, folder)
 
 
@@ -118,7 +106,3 @@ def _mistakes(said: str) -> list[Mistake]:
     except ValueError:
         return []
     return [Mistake(m["file"], m["line"], m["column"], m["field"], m["what"]) for m in told]
-
-
-def _wrong(release: Release, what: str) -> Mistake:
-    return Mistake("versions", 0, 0, str(release), what)

@@ -25,32 +25,34 @@ def mark(grade: str, engine: Engine) -> Mark:
         ("y down", "pendulum", "y points down"),
         ("y and vy down", "pendulum", "y and vy have the opposite sign"),
         ("clockwise", "pendulum", "angle and omega are clockwise"),
-        ("omega clockwise", "chain", "omega is clockwise"),
+        ("omega clockwise", "chain", None),
         ("degrees", "pendulum", "angle and omega are in degrees"),
-        ("degrees a second", "torsion and motor", "omega is in degrees a second"),
+        ("degrees a second", "torsion and motor", None),
         ("wound", "sliding, then rolling", "the angle is wound: whole turns are to be counted"),
-        ("ends", "free chain", "x and y are those of `start`, not of the centre of mass"),
+        ("ends", "free chain", None),
         ("scalar last", "space: free", "quaternions are x, y, z, w: w comes first"),
         ("omega in ground axes", "space: free", "ω is in ground axes: body axes are asked for"),
-        ("gravity up", "pendulum", "gravity points the other way"),
-        ("no gravity", "free chain", "there is no gravity"),
-        ("pushed back", "push", "hand acts the other way"),
-        ("no forces", "spring", "leg does not act"),
-        ("inertia about an end", "pendulum", "the inertia of bar is about bar.start, not about"),
-        ("no friction", "sliding, then rolling", "touch has no friction"),
-        ("bounces for ever", "impact", "touch gives all of the speed back"),
+        ("gravity up", "pendulum", None),
+        ("no gravity", "free chain", None),
+        ("pushed back", "push", None),
+        ("no forces", "spring", None),
+        ("inertia about an end", "pendulum", None),
+        ("no friction", "sliding, then rolling", None),
+        ("bounces for ever", "impact", None),
         ("forces", "pendulum", "forces have the opposite sign: what the first part exerts on the"),
-        ("at rest", "loop with a slide", "the velocities of the start are not taken"),
+        ("at rest", "loop with a slide", None),
         ("energy twice", "free chain", "energy.kinetic: it is twice what it should be"),
         ("inertia about the pin", "pendulum", "bar.inertia: it is about bar.start, not about the"),
         ("grams", "falls", "ball.mass: it is in units of a thousandth"),
     ],
 )
-def test_a_mistake_has_a_name(mistake: str, grade: str, said: str) -> None:
+def test_a_mistake_is_seen_and_one_of_the_readout_has_a_name(
+    mistake: str, grade: str, said: str | None
+) -> None:
     found = mark(grade, Mistaken(mistake, "pymunk" if mistake == "bounces for ever" else "mujoco"))
     assert found.outcome == "wrong", found
-    assert any(likely.startswith(said) for likely in found.likely), found
-    assert len(found.likely) <= 2, found
+    assert len(found.likely) == (0 if said is None else 1), found
+    assert said is None or found.likely[0].startswith(said)
 
 
 @pytest.mark.slow

@@ -1,8 +1,7 @@
 """Friction by a power of the speed (2.86): of a point of a body, and along a slide."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import inf
 from typing import Annotated
 
 import numpy as np
@@ -121,22 +120,6 @@ class Drag(Force):
     def _most(self) -> float:
         """The largest d [N]."""
         return max(d for way in self.ways for d in (way.forward, way.backward))
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """The largest d/m at 1 m/s."""
-        return 0.0, self._most * sum(mobility(at) for at in self.refers())
-
-    def quickens(self, begins: float, load: float) -> float:
-        """With α > 1 v^(α−1), of the start or as it carries the load.
-
-        With less what is slow is slowed down most, and 1 m/s is as good as any.
-        """
-        if self.exponent <= 1 or not self._most:
-            return 1.0
-        try:
-            return max(begins, (load / self._most) ** (1 / self.exponent)) ** (self.exponent - 1)
-        except OverflowError:
-            return inf
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """The questions that every force element answers, so that nobody asks which one it is."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -83,20 +83,6 @@ class Force:
     def numbers(self) -> dict[str, float]:
         """The numbers that an engine has of it, for the equal-physics audit."""
         return {}
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """How fast [rad/s] it makes its points swing, and how fast [1/s] it slows them down.
-
-        mobility: how easily [1/kg] a point moves.
-        """
-        return 0.0, 0.0
-
-    def quickens(self, begins: float, load: float) -> float:
-        """How many times as much it slows down as at 1 m/s what nothing but a load pulls [N].
-
-        begins: the speed [m/s] at which that starts.
-        """
-        return 1.0
 
 
 @dataclass(frozen=True)

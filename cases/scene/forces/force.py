@@ -5,9 +5,8 @@ reference/mechanism/forces/action.py, and how each engine builds it in engines/*
 law in engines/law.py if it needs one.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from math import sqrt
 from typing import Annotated, TypeVar
 
 import numpy as np
@@ -44,10 +43,6 @@ class Magnetic(Force):
         """The body's centre."""
         return (Anchor(self.body, CENTER),)
 
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """e B/m."""
-        return abs(self.charge * self.along_z) * mobility(Anchor(self.body, CENTER)), 0.0
-
 
 # A torque between two bodies, which no joint has to hold together.
 
@@ -74,10 +69,6 @@ class Couple(Force):
         """M (ω₂ − ω₁)."""
         rate = motion.spin(self.second) - motion.spin(self.first)
         return np.sum(self.signal.at(motion.trajectory.times) * rate, axis=1)
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
-        return self.signal.angular_frequency, 0.0
 
 
 @dataclass(frozen=True)
@@ -140,10 +131,6 @@ class Spring(Line):
         numbers = {"stiffness": self.stiffness, "rest_length": self.rest_length}
         return numbers | {side: float(acts) for side, acts in sides.items()}
 
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """√(c/m)."""
-        return sqrt(self.stiffness * (mobility(self.a) + mobility(self.b))), 0.0
-
 
 @dataclass(frozen=True)
 class Damper(Line):
@@ -159,10 +146,6 @@ class Damper(Line):
     def numbers(self) -> dict[str, float]:
         """d."""
         return {"damping": self.damping}
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """d/m."""
-        return 0.0, self.damping * (mobility(self.a) + mobility(self.b))
 
 
 @dataclass(frozen=True)
@@ -186,10 +169,6 @@ class Push(Force):
         _, velocity = np.hsplit(motion.point(self.at), 2)
         return np.sum(self.signal.at(motion.trajectory.times) * velocity, axis=1)
 
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
-        return self.signal.angular_frequency, 0.0
-
 
 @dataclass(frozen=True)
 class Torque(Force):
@@ -212,10 +191,6 @@ class Torque(Force):
         """M·ω."""
         given = self.signal.at(motion.trajectory.times)
         return np.sum(given * motion.spin(self.body), axis=1)
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
-        return self.signal.angular_frequency, 0.0
 
 
 NOUNS = (

@@ -1,8 +1,6 @@
 """Muscles between two points (figure 2.17): what contracts with a spring in series, one beside."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import sqrt
 from typing import Annotated, ClassVar
 
 from ...fields.field import In
@@ -68,11 +66,6 @@ class Contracting(Force):
         series = length - motion.reaction(f"{self.name}.{self.inner}")
         beside = length - self.rest_length
         return (self.series_stiffness * series**2 + self.parallel_stiffness * beside**2) / 2
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """√((c_s + c_p)/m)."""
-        stiffness = self.series_stiffness + self.parallel_stiffness
-        return sqrt(stiffness * (mobility(self.a) + mobility(self.b))), 0.0
 
 
 @dataclass(frozen=True)

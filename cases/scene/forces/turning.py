@@ -1,6 +1,5 @@
 """Force elements that turn the two parts of a joint against each other."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -109,7 +108,3 @@ class Motor(Turning):
         """M φ̇, M as given."""
         _, rate = motion.turn(self.about, self.turn)
         return self.signal.at(motion.trajectory.times)[:, 0] * rate
-
-    def pace(self, mobility: Callable[[Anchor], float]) -> tuple[float, float]:
-        """The angular frequency of its law in time [rad/s], and 0 [1/s]: it slows nothing down."""
-        return self.signal.angular_frequency, 0.0

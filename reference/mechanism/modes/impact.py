@@ -20,7 +20,6 @@ from .blow import SAME, Blow, Condition, Meeting, blow
 from .element import State
 from .shared_friction import undecided, ways
 
-BLOW = 5  # evaluations: of solving for the impulses of a blow (measured 3–6)
 GAIN = 1e-9  # of the kinetic energy: more is no rounding
 
 
@@ -43,7 +42,7 @@ def impact(
     driven, small = _driven(joints, meetings), SAME * float(np.max(np.abs(v)))
     found: list[tuple[Blow, tuple[State, ...]]] = []
     gains = False
-    for states in tries(lambda: ways(elements, choices), BLOW, undecided(elements, choices)):
+    for states in tries(ways(elements, choices), undecided(elements, choices)):
         way = blow(M, joints, meetings, v, states)
         if way is None:
             continue

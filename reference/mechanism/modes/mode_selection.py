@@ -14,7 +14,6 @@ from .mode import SingularPose
 from .modes import Modes
 from .shared_friction import undecided, ways
 
-MODE = 50  # evaluations: of building a mode and asking it, of one to eight bodies (measured 25–45)
 YIELDS = 1e-8  # of the forces: where events are located a margin is 0 to some 1e-10 of them
 
 After = tuple[str, Array, Array]
@@ -102,7 +101,7 @@ def settled(
     singular: SingularPose | None = None
     hopeless, known = False, {*modes}
     free = undecided(modes.elements, choices)
-    for states in tries(lambda: ways(modes.elements, choices), MODE, free):
+    for states in tries(ways(modes.elements, choices), free):
         after = _projected(modes, states, t, q, v)
         try:
             if (hopeless and _held(modes, after, t)) or (

@@ -13,7 +13,6 @@ from ..search.candidate import Candidate
 from ..tasks import Pair
 from .candidates import NOTHING, Choice
 from .criterion import Bar
-from .parameter_draws import Held
 from .real_shapes import Beside
 from .recipe import Kitchen, Recipe, Recipes, best, named_options
 
@@ -25,7 +24,6 @@ class Requirement:
     tolerance: float | None
     margin: float
     front: bool = False  # whether cost against error is drawn
-    robust: bool = False  # whether the recipe is tried with other parameters
 
 
 @dataclass(frozen=True)
@@ -37,7 +35,6 @@ class Advised:
     way: Plan | Refusal
     kitchen: Kitchen | None
     recipes: Recipes | None
-    draws: tuple[Held, ...] = ()  # of each of the two
     shapes: Sequence[Shape] = ()  # that a user has; what is advised is measured on the first
     beside: Beside = field(default_factory=dict[Candidate, Any])  # on the others
 

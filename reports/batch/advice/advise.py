@@ -25,7 +25,6 @@ from ..tasks import Pair
 from .advice_rows import Advised, Requirement
 from .candidates import NOTHING, Choice, Menu, fitting
 from .criterion import Bar
-from .parameter_draws import tried_in_draws
 from .real_shapes import measured_beside, shapes, worst_on_shapes
 from .recipe import Kitchen, Recipes, recipes, rungs_of
 
@@ -61,8 +60,7 @@ def advise(
     _run_as_shipped(ready, results)
     listener.begun(ready)
     try:
-        advised = _searched(ready, asked, results)
-        return [_drawn(one, results) for one in advised] if asked.robust else advised
+        return _searched(ready, asked, results)
     except KeyboardInterrupt:
         listener.stopped(ready)
         raise
@@ -136,14 +134,6 @@ def _rejected(one: Advised, worst: Mapping[Candidate, float]) -> bool:
     assert one.kitchen is not None
     one.kitchen.bar.leave_out(worst)
     return not all(one.kitchen.bar.holds(recipe.candidate) for _, recipe in one.wanted)
-
-
-def _drawn(one: Advised, results: Results) -> Advised:
-    if one.kitchen is None:
-        return one
-    scale = one.kitchen.bar.scale
-    tried = (tried_in_draws(one.pair, recipe.candidate, scale, results) for _, recipe in one.wanted)
-    return replace(one, draws=tuple(tried))
 
 
 _FAR = "at samples as far apart as its own step asks for"

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from ....cases.case import Case
-from ....cases.language.check.cost import LIMIT, about
-from ....cases.language.check.work import GO_ON
+from ....cases.language.check.work import GO_ON, LIMIT
 from ....cases.mistake import Mistake
 from ....cases.scene import Scene
 from ....engines import foreign
@@ -50,6 +49,15 @@ def _of(cases: Sequence[Case], engine: Engine) -> Iterator[Mistake]:
     most = cases[kept.index(max(kept))]
     if max(kept) > KEPT:
         yield _mistake(most, engine, f"{max(kept):.3g} rows kept for the events", f"{KEPT:g}")
+
+
+def about(seconds: float) -> str:
+    """Returns a time in words of the right size."""
+    minutes = seconds / 60
+    for size, unit in ((60 * 24 * 365, "years"), (60 * 24, "days"), (60, "hours")):
+        if minutes > 2 * size:
+            return f"about {minutes / size:.2g} {unit}"
+    return f"about {minutes:.0f} minutes"
 
 
 def _mistake(case: Case, engine: Engine, what: str, limit: str) -> Mistake:

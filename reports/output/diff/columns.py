@@ -1,15 +1,10 @@
-"""The table of a report's CSV files: the columns that name a row, and when a row has changed.
-
-`KNOWN` has the columns of each file whose cells have a meaning here. Of any other file `compare`
-guesses what names its rows, and its cells are compared as they are.
-"""
+"""The tables of reports that are compared: what names a row, and when a row has changed."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import floor, inf, isfinite, isinf, isnan, log10
+from math import floor, isfinite, isinf, isnan, log10
 
-from ...data.row import AGREES, BEYOND, DEVIATES, FAILS, LADDER, OF_A_LADDER, rank
-from ...data.row import CHANGED as ANOTHER_EVENT
+from ...data.row import FAILS, LADDER, OF_A_LADDER, rank
 
 WORSE, BETTER, CHANGED = "regression", "better", "changed"
 LOST, NEW = "lost", "new"
@@ -55,15 +50,6 @@ class Rule:
         return matters and not now <= self.worse * was
 
 
-def factor(was: float | None, now: float | None) -> float | None:
-    """Returns how many times as large the new number is; None where that is no number."""
-    if was is None or now is None or isnan(was) or isnan(now) or was == now:
-        return None
-    if was == 0.0:
-        return inf
-    return None if isinf(was) else now / was
-
-
 Judge = Callable[[Row, Row, Rule, float | None], str | None]
 """Returns the kind of the change from the old row to the new one, or None.
 
@@ -75,18 +61,13 @@ The last argument is the error that is allowed of the row's quantity; None where
 class Columns:
     """The columns of one file, and what is said of its rows.
 
-    keys: what names a row. numbers, words: what must be there too, and be read; the first number,
-    and the first word that is not empty, are what a row says. judge: how two rows of one name are
-    compared; None: cell by cell of `words`, where every other cell is a change.
+    keys: what names a row. numbers, words: what must be there too; the first number, and the first
+    word that is not empty, are what a row says. judge: how two rows of one name are compared; None:
+    cell by cell of `words`.
 
     what, column: what a row is about, and in which engine, with names of columns in braces; by
     themselves its further keys, and its engine with its setting. unit, label: of its number.
-    nothing: what a row says whose words are all empty.
-
-    verdicts: all that may stand in the column of that name, from good to bad. missed: those that
-    judge a number; who loses such a row knows less than before. listed: the column that lists
-    cases, of which those of one folder alone do not count. question: what names a search; if one of
-    two runs did not do it, neither's answers are compared.
+    verdicts: all that may stand in the column of that name.
     """
 
     name: str
@@ -98,11 +79,7 @@ class Columns:
     column: str = ""
     unit: str = ""
     label: str = ""
-    nothing: str = ""
     verdicts: tuple[str, ...] = ()
-    missed: tuple[str, ...] = ()
-    listed: str = ""
-    question: tuple[str, ...] = ()
 
     @property
     def needed(self) -> tuple[str, ...]:
@@ -112,14 +89,6 @@ class Columns:
     def key(self, row: Row) -> tuple[str, ...]:
         """Returns the cells that name a row."""
         return tuple(row[name] for name in self.keys)
-
-    def lost(self, row: Row) -> str:
-        """Returns the kind of change that it is if only the old folder has the row."""
-        return WORSE if self.missed and row["verdict"] in self.missed else LOST
-
-    def new(self, row: Row) -> str:
-        """Returns the kind of change that it is if only the new folder has the row."""
-        return WORSE if FAILS in self.verdicts and row["verdict"] == FAILS else NEW
 
 
 def number(row: Row, column: str) -> float | None:
@@ -192,73 +161,48 @@ def _of_an_item(old: Row, new: Row, rule: Rule, allowed: float | None) -> str | 
 
 
 ENGINE = ("case", "engine", "setting", "realised")
-_SEARCHED = ("case", "engine", "setting", "quantity")
 
+# fmt: off
 ERRORS = Columns(
-    "tolerance.csv",
-    keys=(*ENGINE, "quantity"),
-    numbers=("error", "step", "allowed"),
-    words=("verdict", "version", "unit"),
-    judge=_of_an_error,
-    unit="{unit}",
-    verdicts=LADDER,
-    missed=(AGREES, DEVIATES, BEYOND, ANOTHER_EVENT),
+    "tolerance.csv", keys=(*ENGINE, "quantity"), numbers=("error", "step", "allowed"),
+    words=("verdict", "version", "unit"), judge=_of_an_error, unit="{unit}", verdicts=LADDER,
 )
 LADDERS = Columns(
-    "convergence.csv",
-    keys=(*ENGINE, "ladder", "quantity"),
-    numbers=("usable_step", "uncertainty"),
-    words=("verdict",),
-    judge=_of_a_ladder,
-    what="{quantity} ({ladder})",
-    unit="s",
-    label="usable step",
-    verdicts=tuple(OF_A_LADDER),
+    "convergence.csv", keys=(*ENGINE, "ladder", "quantity"), numbers=("usable_step", "uncertainty"),
+    words=("verdict",), judge=_of_a_ladder, what="{quantity} ({ladder})", unit="s",
+    label="usable step", verdicts=tuple(OF_A_LADDER),
 )
 STEPS = Columns(
-    "steps.csv",
-    keys=(*ENGINE, "ladder", "quantity", "step"),
-    numbers=("error",),
-    judge=_of_a_step,
-    what="{quantity} ({ladder}, h = {step} s)",
+    "steps.csv", keys=(*ENGINE, "ladder", "quantity", "step"), numbers=("error",),
+    judge=_of_a_step, what="{quantity} ({ladder}, h = {step} s)",
 )
 INSTANTS = Columns(
-    "events.csv",
-    keys=(*ENGINE, "event", "k"),
-    numbers=("time",),
-    judge=_of_an_event,
-    what="{event} {k}",
-    unit="s",
+    "events.csv", keys=(*ENGINE, "event", "k"), numbers=("time",), judge=_of_an_event,
+    what="{event} {k}", unit="s",
 )
 CERTIFICATES = Columns(
-    "reference.csv",
-    keys=("case", "system", "check"),
-    numbers=("certified",),
-    words=("verdict", "unit"),
-    judge=_of_a_check,
-    what="{check}",
-    column="reference ({system})",
-    unit="{unit}",
-    label="certified to",
-    verdicts=("holds", FAILS),
+    "reference.csv", keys=("case", "system", "check"), numbers=("certified",),
+    words=("verdict", "unit"), judge=_of_a_check, what="{check}", column="reference ({system})",
+    unit="{unit}", label="certified to", verdicts=("holds", FAILS),
 )
 COVERED = Columns(
-    "coverage.csv",
-    keys=("kind", "number"),
-    words=("cases", "otherwise"),
-    judge=_of_an_item,
-    what="{kind} {number}",
-    column="coverage",
-    nothing="not covered",
-    listed="cases",
+    "coverage.csv", keys=("kind", "number"), words=("cases", "otherwise"), judge=_of_an_item,
+    what="{kind} {number}", column="coverage",
 )
 CAUSES = Columns(
-    "causes.csv",
-    keys=(*_SEARCHED, "cure"),
+    "causes.csv", keys=("case", "engine", "setting", "quantity", "cure"),
     words=("error", "allowed", "options", "step", "error_after", "cost", "law"),
-    question=_SEARCHED,
 )
-KNOWN = {
-    columns.name: columns
-    for columns in (ERRORS, LADDERS, STEPS, INSTANTS, CERTIFICATES, COVERED, CAUSES)
-}
+ADVICE = Columns(
+    "advice.csv", keys=("case", "engine", "tolerance", "margin", "want"),
+    words=("recipe", "settings", "step", "cost", "shipped_cost", "ratio", "quantity", "remains"),
+)
+RELEASES = Columns(
+    "versions.csv", keys=("case", "engine", "version", "setting", "realised", "quantity"),
+    words=("verdict", "error", "allowed", "because"), what="{quantity} of {version}",
+)
+# fmt: on
+_ALL = (ERRORS, LADDERS, STEPS, INSTANTS, CERTIFICATES, COVERED, CAUSES, ADVICE, RELEASES)
+KNOWN = {columns.name: columns for columns in _ALL}
+OF_A_RUN = KNOWN.keys() - {ADVICE.name, RELEASES.name}
+"""The files that one run writes together; the others are runs of their own."""

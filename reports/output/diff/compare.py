@@ -2,49 +2,42 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import inf, isinf, isnan
+from typing import NamedTuple
 
 from ....cases.mistake import CaseError, Mistake
-from ...data.row import UNSEARCHED
+from ...data.row import AGREES, BEYOND, DEVIATES, FAILS, UNSEARCHED
+from ...data.row import CHANGED as ANOTHER_EVENT
 from .columns import (
+    CAUSES,
     CHANGED,
+    COVERED,
     ENGINE,
     ERRORS,
     KINDS,
     KNOWN,
+    LOST,
+    NEW,
     WORSE,
     Columns,
     Row,
     Rule,
-    factor,
     number,
 )  # fmt: skip
-from .folder import Folder, Scope, Table
+from .folder import Folder
 
-NAMING = (
-    *(*ENGINE, "ladder", "quantity", "event", "k"),
-    *("system", "check", "kind", "number", "tolerance", "margin"),
-)
-"""Columns that name the rows of a file that is not known."""
-FURTHER = ("version", "cure", "options", "recipe")
-"""Columns that may name them too, where those above do not tell them apart."""
+JUDGED = (AGREES, DEVIATES, BEYOND, ANOTHER_EVENT)
+"""Verdicts on a number: who loses such a row knows less than before."""
+REFERENCE = ("reference", "")  # an engine's column in events.csv, of every run
 
 Key = tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Place:
-    """Case, column and subject of a change; empty where it has none.
-
-    So `four_bar`, `mujoco.tuned (law)`, `crank.angle`.
-    """
-
-    case: str
-    column: str
-    what: str
+Place = tuple[str, str, str]
+"""Case, column and subject of a row, as `four_bar`, `mujoco.tuned (law)`, `crank.angle`."""
 
 
-@dataclass(frozen=True)
-class Seen:
+class Content(NamedTuple):
     """The content of a row in one of the folders: a verdict or other words, and a number."""
 
     words: str
@@ -53,30 +46,31 @@ class Seen:
 
 @dataclass(frozen=True)
 class Change:
-    """A row that differs, or that only one of the folders has (then the other is None)."""
+    """A row that differs, or that only one of the folders has (then the other is None).
+
+    times: the new error over the old one; label: what its number is, where it is no error.
+    """
 
     kind: str
     file: str
     place: Place
-    was: Seen | None
-    now: Seen | None
+    old: Content | None
+    new: Content | None
     unit: str = ""
     allowed: float | None = None
-    times: float | None = None  # the new error over the old one
-    label: str = ""  # what its number is, where it is no error
+    times: float | None = None
+    label: str = ""
     note: str = ""
 
 
-@dataclass(frozen=True)
-class Counts:
+class Counts(NamedTuple):
     """Rows of one file: compared with one another, and those of each folder that were not.
 
     searched: those of each that were not since not both runs looked for what they tell.
     """
 
     compared: int
-    old: int
-    new: int
+    left: tuple[int, int]
     searched: tuple[int, int] = (0, 0)
 
 
@@ -84,13 +78,14 @@ class Counts:
 class Difference:
     """Every difference between two report folders.
 
-    scope: what both look at; counts: by file; alone: files of one folder.
+    cases, engines: what both look at; counts: by file; alone: files of one folder.
     """
 
     old: Folder
     new: Folder
     rule: Rule
-    scope: Scope
+    cases: frozenset[str]
+    engines: frozenset[tuple[str, str]]
     changes: tuple[Change, ...]
     counts: Mapping[str, Counts]
     alone: tuple[str, ...]
@@ -111,33 +106,40 @@ def difference(old: Folder, new: Folder, rule: Rule, *, whole: bool = False) -> 
     whole: both are of all that there is, so that a case of one folder is lost or new. Raises
     CaseError where there is nothing that both look at.
     """
-    shared = old.scope & new.scope
-    if not (shared.cases and shared.engines):
-        what = "no case" if not shared.cases else "no engine with the same setting"
+    cases, engines = old.cases & new.cases, old.engines & new.engines
+    if not (cases and engines):
+        what = "no case" if not cases else "no engine with the same setting"
         text = f"{what} is in both folders: nothing can be compared"
         raise CaseError([Mistake(f"{old.name} and {new.name}", 0, 0, "", text)])
-    scope = old.scope | new.scope if whole else shared
+    if whole:
+        cases, engines = old.cases | new.cases, old.engines | new.engines
     allowed = {  # where both say it, the new one counts
         ERRORS.key(row): float(row["allowed"])
         for row in (*old.errors, *new.errors)
         if row["allowed"]
     }
+
+    def looked_at(row: Row) -> bool:
+        engine = row.get("engine"), row.get("setting")
+        of_both = None in engine or engine == REFERENCE or engine in engines
+        return of_both and row.get("case") in {None, *cases}
+
     changes: list[Change] = []
     counts: dict[str, Counts] = {}
-    names = old.tables.keys() & new.tables.keys()
-    for name in [*(n for n in KNOWN if n in names), *sorted(names - KNOWN.keys())]:
-        tables = old.tables[name], new.tables[name]
-        columns = KNOWN.get(name) or _guessed(name, *tables)
-        asked = [_within(columns, table.rows, scope) for table in tables]
-        told = _searched(columns, *asked)
-        before, after = ({columns.key(row): row for row in rows} for rows in told)
+    for columns in (KNOWN[name] for name in KNOWN if name in old.tables and name in new.tables):
+        tables = old.tables[columns.name], new.tables[columns.name]
+        rows = [[row for row in table if looked_at(row)] for table in tables]
+        left = len(tables[0]) - len(rows[0]), len(tables[1]) - len(rows[1])
+        searched = _searched(rows) if columns is CAUSES else rows
+        unsearched = len(rows[0]) - len(searched[0]), len(rows[1]) - len(searched[1])
+        if columns is COVERED:
+            searched = [[_by_cases(row, cases) for row in some] for some in rows]
+        before, after = ({columns.key(row): row for row in some} for some in searched)
         changes += _merged(columns, before, after, rule, allowed)
-        left = [len(table.rows) - len(rows) for table, rows in zip(tables, asked, strict=True)]
-        unsearched = len(asked[0]) - len(told[0]), len(asked[1]) - len(told[1])
-        counts[name] = Counts(len(before.keys() & after.keys()), left[0], left[1], unsearched)
+        counts[columns.name] = Counts(len(before.keys() & after.keys()), left, unsearched)
     changes.sort(key=lambda change: KINDS.index(change.kind))
     alone = tuple(sorted(old.tables.keys() ^ new.tables.keys()))
-    return Difference(old, new, rule, scope, tuple(changes), counts, alone)
+    return Difference(old, new, rule, cases, engines, tuple(changes), counts, alone)
 
 
 def place(columns: Columns, row: Row) -> Place:
@@ -145,54 +147,24 @@ def place(columns: Columns, row: Row) -> Place:
     engine = ".".join(row[name] for name in ("engine", "setting") if row.get(name))
     realised = row.get("realised", "")
     further = (row[name] for name in columns.keys if name not in ENGINE)
-    return Place(
-        row.get("case", ""),
-        columns.column.format_map(row)
-        or (engine if realised in ("", "native") else f"{engine} ({realised})"),
-        columns.what.format_map(row) or ", ".join(filter(None, further)),
-    )
+    column = engine if realised in ("", "native") else f"{engine} ({realised})"
+    what = columns.what.format_map(row) or ", ".join(filter(None, further))
+    return row.get("case", ""), columns.column.format_map(row) or column, what
 
 
-def _guessed(name: str, old: Table, new: Table) -> Columns:
-    """Returns the columns of a file that is not known, by the fewest that name its rows.
-
-    Where nothing less tells the rows apart, all shared columns name them: then none changes, and
-    rows are lost and new.
-    """
-    shared = [column for column in old.columns if column in new.columns]
-    keys = [column for column in shared if column in NAMING]
-    for further in ("", *FURTHER):
-        keys += [further] if further in shared else []
-        found = Columns(name, tuple(keys), words=tuple(c for c in shared if c not in keys))
-        if keys and all(len({*map(found.key, t.rows)}) == len(t.rows) for t in (old, new)):
-            return found
-    return Columns(name, tuple(shared))
+def _by_cases(row: Row, cases: frozenset[str]) -> Row:
+    """Returns an item of the chapter with those of its cases alone that both folders look at."""
+    return {**row, "cases": " ".join(case for case in row["cases"].split() if case in cases)}
 
 
-def _within(columns: Columns, rows: Sequence[Row], scope: Scope) -> list[Row]:
-    """Returns the rows about cases and engines of the scope; a list of cases has only those."""
-    found = [row for row in rows if scope.holds(row)]
-    if not (name := columns.listed):
-        return found
-    return [
-        {**row, name: " ".join(case for case in row[name].split() if case in scope.cases)}
-        for row in found
-    ]
-
-
-def _searched(columns: Columns, old: list[Row], new: list[Row]) -> tuple[list[Row], list[Row]]:
-    """Returns the rows of each folder but those about what one of the runs has not searched."""
-    if not columns.question:
-        return old, new
+def _searched(rows: Sequence[Sequence[Row]]) -> list[list[Row]]:
+    """Returns the causes of each folder but those that one of the runs has not searched."""
 
     def question(row: Row) -> Key:
-        return tuple(row[name] for name in columns.question)
+        return tuple(row[name] for name in ("case", "engine", "setting", "quantity"))
 
-    left = {question(row) for row in (*old, *new) if row["cure"] == UNSEARCHED}
-    return (
-        [row for row in old if question(row) not in left],
-        [row for row in new if question(row) not in left],
-    )
+    left = {question(row) for some in rows for row in some if row["cure"] == UNSEARCHED}
+    return [[row for row in some if question(row) not in left] for some in rows]
 
 
 def _merged(
@@ -203,44 +175,50 @@ def _merged(
         was, now = old.get(key), new.get(key)
         if was is not None and now is not None:
             bar = allowed.get(tuple(now.get(name, "") for name in ERRORS.keys))
-            change = _compared(columns, was, now, rule, bar)
-            if change is not None:
-                yield change
+            yield from _compared(columns, was, now, rule, bar)
         elif was is not None:
-            kind, where = columns.lost(was), place(columns, was)
-            yield Change(kind, columns.name, where, _seen(columns, was), None)
+            kind = WORSE if columns is ERRORS and was["verdict"] in JUDGED else LOST
+            yield Change(kind, columns.name, place(columns, was), _content(columns, was), None)
         elif now is not None:
-            kind, where = columns.new(now), place(columns, now)
-            yield Change(kind, columns.name, where, None, _seen(columns, now))
+            kind = WORSE if now.get("verdict") == FAILS else NEW
+            yield Change(kind, columns.name, place(columns, now), None, _content(columns, now))
 
 
 def _compared(
     columns: Columns, old: Row, new: Row, rule: Rule, allowed: float | None
-) -> Change | None:
-    """Returns how a row has changed; of cells that nobody knows never more than that they did."""
+) -> Iterator[Change]:
+    """Yields how a row has changed, or nothing; of cells without a judge that they have."""
     where = place(columns, new)
     if columns.judge is None:
         differ = tuple(name for name in columns.words if _another(old[name], new[name], rule))
-        was, now = (_seen(replace(columns, words=differ), row) for row in (old, new))
-        return Change(CHANGED, columns.name, where, was, now) if differ else None
-    kind = columns.judge(old, new, rule, allowed)
-    if kind is None:
+        was, now = (_content(replace(columns, words=differ), row) for row in (old, new))
+        if differ:
+            yield Change(CHANGED, columns.name, where, was, now)
+    elif kind := columns.judge(old, new, rule, allowed):
+        was, now = _content(columns, old), _content(columns, new)
+        error = columns is ERRORS
+        moved = old.get("unit") == new.get("unit") and rule.differ(was.number, now.number, allowed)
+        yield Change(
+            kind,
+            columns.name,
+            where,
+            was,
+            now,
+            unit=columns.unit.format_map(new),
+            allowed=allowed if error else None,
+            times=factor(was.number, now.number) if error and moved else None,
+            label=columns.label,
+            note=_note(old, new),
+        )
+
+
+def factor(was: float | None, now: float | None) -> float | None:
+    """Returns how many times as large the new number is; None where that is no number."""
+    if was is None or now is None or isnan(was) or isnan(now) or was == now:
         return None
-    was, now = _seen(columns, old), _seen(columns, new)
-    error = columns is ERRORS
-    moved = old.get("unit") == new.get("unit") and rule.differ(was.number, now.number, allowed)
-    return Change(
-        kind,
-        columns.name,
-        where,
-        was,
-        now,
-        unit=columns.unit.format_map(new),
-        allowed=allowed if error else None,
-        times=factor(was.number, now.number) if error and moved else None,
-        label=columns.label,
-        note=_note(old, new),
-    )
+    if was == 0.0:
+        return inf
+    return None if isinf(was) else now / was
 
 
 def _another(was: str, now: str, rule: Rule) -> bool:
@@ -251,11 +229,13 @@ def _another(was: str, now: str, rule: Rule) -> bool:
         return was != now
 
 
-def _seen(columns: Columns, row: Row) -> Seen:
+def _content(columns: Columns, row: Row) -> Content:
     if columns.judge is None:
-        return Seen(", ".join(f"{name} {row[name]}" for name in columns.words if row[name]))
-    words = next((row[name] for name in columns.words if row[name]), columns.nothing)
-    return Seen(words, number(row, columns.numbers[0]) if columns.numbers else None)
+        return Content(", ".join(f"{name} {row[name]}" for name in columns.words if row[name]))
+    words = next((row[name] for name in columns.words if row[name]), "")
+    if columns is COVERED:
+        words = words or "not covered"
+    return Content(words, number(row, columns.numbers[0]) if columns.numbers else None)
 
 
 def _note(old: Row, new: Row) -> str:

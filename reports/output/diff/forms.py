@@ -12,7 +12,7 @@ from textwrap import wrap
 from typing import Any
 
 from .columns import BETTER, CHANGED, KINDS, LOST, NEW, WORSE
-from .compare import Change, Difference, Seen
+from .compare import Change, Difference
 from .folder import Folder
 
 TITLES = {
@@ -25,7 +25,6 @@ TITLES = {
 PLURALS = {kind: "regressions" if kind == WORSE else kind for kind in KINDS}
 WIDTH = 80
 MOST = 30  # changes shown of a kind: more have one cause as a rule, and are not read one by one
-LONGEST = 1000  # letters of a line: names of a case have 60, those of a foreign table any number
 LISTED = 50  # the same in Markdown: a comment holds 65 000 letters
 NAMES = 6  # of cases that only one folder has
 HEAD = ("case", "engine", "what", "OLD → NEW", "file")
@@ -53,7 +52,7 @@ def text(found: Difference, *, width: int = WIDTH, every: bool = False) -> str:
 def fitted(line: str, width: int) -> list[str]:
     """Returns the lines of a line broken to this width; those after the first are indented more."""
     indent = len(line) - len(line.lstrip())
-    further, line = " " * (indent + 4), shortened(line)
+    further = " " * (indent + 4)
     return wrap(line, max(width, 40), subsequent_indent=further, break_on_hyphens=False) or [""]
 
 
@@ -75,14 +74,8 @@ def markdown(found: Difference, *, every: bool = False) -> str:
     return "\n".join([*lines, ""])
 
 
-def shortened(text: str) -> str:
-    """Returns the text, of which no more than `LONGEST` letters are shown."""
-    more = len(text) - LONGEST
-    return text if more <= 0 else f"{text[:LONGEST]}… ({more} letters more)"
-
-
 def _cells(cells: Iterable[str]) -> str:
-    return f"| {' | '.join(map(shortened, cells))} |"
+    return f"| {' | '.join(cells)} |"
 
 
 def _plain(text: str) -> str:
@@ -92,19 +85,18 @@ def _plain(text: str) -> str:
 
 def as_json(found: Difference) -> str:
     """Returns the whole difference as JSON text; a number that JSON has not (inf, NaN) is null."""
+    sides = {
+        side: {"folder": folder.name, "run": folder.run, "versions": folder.versions}
+        for side, folder in (("old", found.old), ("new", found.new))
+    }
+    names = "compared", "not looked at", "not searched by both"
     document = {
-        "old": _folder(found.old),
-        "new": _folder(found.new),
+        **sides,
         "rule": asdict(found.rule),
         "regressed": found.regressed,
         "counts": {kind: len(found.of(kind)) for kind in KINDS},
         "rows": {
-            name: {
-                "compared": count.compared,
-                "not looked at": [count.old, count.new],
-                "not searched by both": list(count.searched),
-            }
-            for name, count in found.counts.items()
+            file: dict(zip(names, count, strict=True)) for file, count in found.counts.items()
         },
         "files of one folder": list(found.alone),
         "changes": [_change(change) for change in found.changes],
@@ -114,27 +106,19 @@ def as_json(found: Difference) -> str:
     return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
 
 
-def _folder(folder: Folder) -> dict[str, Any]:
-    return {"folder": folder.name, "run": folder.run, "versions": folder.versions}
-
-
 def _change(change: Change) -> dict[str, Any]:
     return {
         "kind": change.kind,
         "file": change.file,
-        **asdict(change.place),
-        "old": _row(change.was),
-        "new": _row(change.now),
+        **dict(zip(("case", "column", "what"), change.place, strict=True)),
+        "old": change.old and {"words": change.old.words, "number": _finite(change.old.number)},
+        "new": change.new and {"words": change.new.words, "number": _finite(change.new.number)},
         "number is": change.label,
         "unit": change.unit,
         "allowed": _finite(change.allowed),
         "times": _finite(change.times),
         "note": change.note,
     }
-
-
-def _row(seen: Seen | None) -> dict[str, Any] | None:
-    return None if seen is None else {"words": seen.words, "number": _finite(seen.number)}
 
 
 def _finite(number: float | None) -> float | None:
@@ -144,18 +128,15 @@ def _finite(number: float | None) -> float | None:
 def looked_at(found: Difference) -> Iterator[str]:
     """Yields which folders there are, how many rows were compared, and what was not, and why."""
     counts = found.counts.values()
-    sides = (
-        ("OLD", found.old, sum(count.old for count in counts)),
-        ("NEW", found.new, sum(count.new for count in counts)),
-    )
-    for side, folder, _ in sides:
+    sides = ("OLD", found.old), ("NEW", found.new)
+    for side, folder in sides:
         engines = ", ".join(f"{engine} {version}" for engine, version in folder.versions.items())
         yield f"{side} {folder.name}: run {folder.run}, {engines or 'no engine'}"
     rows = sum(count.compared for count in counts)
-    cases, columns = len(found.scope.cases), len(found.scope.engines)
+    cases, columns = len(found.cases), len(found.engines)
     yield f"compared: {_many(rows, 'row')} of {_many(cases, 'case')} in {_many(columns, 'column')}"
-    for side, folder, left in sides:
-        if left:
+    for i, (side, folder) in enumerate(sides):
+        if left := sum(count.left[i] for count in counts):
             yield f"not looked at: {_many(left, 'row')} of {side}: {_why(found, folder)}"
     for name, count in found.counts.items():
         if any(count.searched):
@@ -168,14 +149,12 @@ def looked_at(found: Difference) -> Iterator[str]:
 
 
 def _why(found: Difference, folder: Folder) -> str:
-    cases = sorted(folder.scope.cases - found.scope.cases)
-    columns = sorted(".".join(engine) for engine in folder.scope.engines - found.scope.engines)
-    told = [
-        f"{what} {_first(some)}" for what, some in (("case", cases), ("column", columns)) if some
-    ]
-    if not told:
+    cases = sorted(folder.cases - found.cases)
+    columns = sorted(".".join(engine) for engine in folder.engines - found.engines)
+    named = [f"case {_first(cases)}"] * bool(cases) + [f"column {_first(columns)}"] * bool(columns)
+    if not named:
         return "of cases that its tolerance.csv does not name"
-    return f"only it has {' and '.join(told)}"
+    return f"only it has {' and '.join(named)}"
 
 
 def _first(names: Sequence[str]) -> str:
@@ -210,17 +189,17 @@ def _sections(found: Difference, most: int | None) -> Iterator[tuple[str, str, N
 def _neighbours(changes: Iterable[Change]) -> Neighbours:
     """Sorts changes by their places; names of one sentence stand together."""
     found: Neighbours = []
-    for place, some in groupby(changes, key=lambda c: (c.place.case, c.place.column, c.file)):
+    for place, some in groupby(changes, key=lambda c: (*c.place[:2], c.file)):
         names: dict[str, list[str]] = {}
         for change in some:
-            names.setdefault(_sentence(change), []).append(change.place.what)
+            names.setdefault(_sentence(change), []).append(change.place[2])
         found.append((place, [(", ".join(what), said) for said, what in names.items()]))
     return found
 
 
 def _sentence(change: Change) -> str:
     """Says a change without its name: `agrees → beyond; 0.0021 → 0.0042 rad ×2, allowed 0.001`."""
-    was, now = change.was, change.now
+    was, now = change.old, change.new
     if now is None:
         return "no such row any more"
     words = now.words
@@ -236,11 +215,8 @@ def _sentence(change: Change) -> str:
 
 def _numbers(change: Change) -> str:
     """Returns `0.0021 → 0.0042 rad ×2, allowed 0.001`, as far as there are numbers."""
-    told = [
-        "" if seen.number is None else f"{seen.number:.9g}"
-        for seen in (change.was, change.now)
-        if seen
-    ]
+    contents = [content for content in (change.old, change.new) if content]
+    told = ["" if content.number is None else f"{content.number:.9g}" for content in contents]
     text = told[0] if len({*told}) == 1 else " → ".join(word or "none" for word in told)
     if not text:
         return ""

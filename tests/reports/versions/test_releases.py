@@ -11,7 +11,7 @@ from given.report_folders import ROW, report
 
 from textmech.cases.mistake import CaseError, Mistake
 from textmech.reports.output.diff.folder import opened
-from textmech.reports.versions import measure, release, table
+from textmech.reports.versions import measure, table
 from textmech.reports.versions.measure import Measured
 from textmech.reports.versions.release import Release
 
@@ -23,7 +23,7 @@ def measured(place: Path, version: str) -> Measured:
 
 
 def order(place: Path, versions: tuple[str, ...], module: Any = table) -> list[str]:
-    found = module.steps([measured(place, version) for version in versions])
+    found = [measured(place, version) for version in versions]
     return module.table(found, ["swing"])["version"].tolist()
 
 
@@ -34,19 +34,6 @@ def test_releases_stand_in_the_order_in_which_they_are_named(tmp_path: Path) -> 
     assert order(tmp_path, ("4.0.0", "3.10.0", "3.9.0")) == ["4.0.0", "3.10.0", "3.9.0"]
     sorts = otherwise(table, '["engine", "case"], kind', '["engine", "case", "version"], kind')
     assert order(tmp_path, ("3.9.0", "3.10.0"), sorts) == ["3.10.0", "3.9.0"]
-
-
-@pytest.mark.mutant("another release in the folder is taken")
-def test_a_folder_holds_its_own_release_and_no_other(tmp_path: Path) -> None:
-    info = tmp_path / "pymunk-7.3.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: pymunk\nVersion: 7.3.0\n")
-    assert release._holds(tmp_path, Release("pymunk", "7.3.0"))
-    assert not release._holds(tmp_path, Release("pymunk", "7.3.1"))
-    assert not release._holds(tmp_path, Release("mujoco", "7.3.0"))
-    was = "one.name == release.engine and alike(one.version, release.version)"
-    any_release = otherwise(release, was, "one.name == release.engine")
-    assert any_release._holds(tmp_path, Release("pymunk", "7.3.1"))
 
 
 ASKED = ("--engine", "--settings", "mine.yaml")

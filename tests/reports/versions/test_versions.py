@@ -1,6 +1,5 @@
 """Releases of an engine beside each other: what one moved is seen, and what it lacks is said."""
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -8,9 +7,9 @@ import pytest
 from given.command import NEW, textmech
 from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 
+from textmech.reports.data import runs
 from textmech.reports.output import write
 from textmech.reports.output.diff.columns import Rule
-from textmech.reports.output.diff.folder import read
 from textmech.reports.versions.release import Release, here, place
 
 NOW = here("pymunk") or ""
@@ -32,7 +31,7 @@ def case(tmp_path: Path, store: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def rows(folder: Path) -> Iterator[dict[str, str]]:
-    return iter(map(dict, read(folder / "versions.csv").rows))
+    return iter(runs.table(folder / "versions.csv"))
 
 
 @pytest.mark.mutant("a release of pymunk with another gravity")
@@ -48,7 +47,7 @@ def test_a_release_that_moved_a_number_is_seen_and_one_that_did_not_is_not(
     assert f"90.1: 3 numbers, 0 moved since {NOW}" in done.stdout
     head, *lines = done.stdout.partition("* moved")[2].splitlines()
     assert head.split() == [NOW, "90.1", "90.2"]
-    (angle,) = [line.split() for line in lines if line.startswith("    rod.angle")]
+    (angle,) = [line.split() for line in lines if line.startswith("  rod.angle")]
     name, unit, now, same, heavier = angle
     assert (name, unit, now) == ("rod.angle", "rad", same)
     assert heavier.startswith("*")
@@ -96,20 +95,14 @@ def test_another_version_than_the_one_asked_for_is_never_taken_for_it(
 
 
 @pytest.mark.slow
-def test_a_release_is_installed_once_and_again_where_it_was_damaged(
-    case: Path, tmp_path: Path
-) -> None:
+def test_a_release_is_installed_once(case: Path, tmp_path: Path) -> None:
     wheel(tmp_path / "index", "93.1", SAME)
     said: list[str] = []
     release, among = Release("pymunk", "93.1"), tmp_path / "releases"
     first, second = (place(release, among, said.append) for _ in range(2))
     assert first == second
     assert said == ["installing pymunk==93.1"]
-    assert first is not None
-    shutil.rmtree(next(first.glob("*.dist-info")))
-    assert place(release, among, said.append) == first
-    assert len(said) == 2
-    assert [file.name for file in among.iterdir()] == [first.name]
+    assert [file.name for file in among.iterdir()] == [first.name if first else ""]
 
 
 @pytest.mark.slow
@@ -152,34 +145,32 @@ def test_this_environments_own_release_is_not_installed(tmp_path: Path) -> None:
 def test_mistakes_are_said_before_anything_is_installed(
     words: list[str], message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("textmech.reports.system.child.run", None)
+    monkeypatch.setattr("textmech.reports.versions.release.subprocess.run", None)
     done = textmech("versions", *words)
     assert done.returncode == 2
     assert message in done.stderr
 
 
 @pytest.mark.slow
-def test_a_release_that_is_not_there_names_near_ones(case: Path, tmp_path: Path) -> None:
-    for version in ("7.3.1", "7.3.2", "1.0"):
-        wheel(tmp_path / "index", version, SAME)
+def test_what_the_installer_says_is_passed_on(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """That there is no such release, with those that there are; that there is no network."""
+    for version in ("7.3.1", "7.3.2"):
+        wheel(case.parent / "index", version, SAME)
     done = textmech("versions", "pymunk==7.3.9", case)
     assert done.returncode == 2
-    assert "no such release for this Python and machine; near ones: 7.3.1, 7.3.2" in done.stderr
-
-
-@pytest.mark.slow
-def test_without_a_network_it_says_so(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "(from versions: 7.3.1, 7.3.2)" in done.stderr
+    assert "pymunk==7.3.9: cannot be installed: the installer says why above" in done.stderr
     monkeypatch.delenv("PIP_NO_INDEX")
     monkeypatch.delenv("PIP_FIND_LINKS")
     monkeypatch.setenv("PIP_INDEX_URL", "https://127.0.0.1:9/simple")
     done = textmech("versions", "pymunk==99.1", case)
     assert done.returncode == 2
-    assert "the package index is not reached" in done.stderr
+    assert "Connection refused" in done.stderr
 
 
 def test_the_committed_example_says_what_the_committed_reports_say() -> None:
     """Of the releases that both have; where they do not, CONTRIBUTING.md tells how to renew it."""
-    errors = read(write.HERE / "tolerance.csv").rows
+    errors = runs.table(write.HERE / "tolerance.csv")
     keys = ("case", "engine", "version", "setting", "realised", "quantity")
     told = {tuple(row[key] for key in keys): row for row in errors}
     versions = {engine: set[str]() for engine in ("mujoco", "pymunk")}

@@ -9,10 +9,21 @@ import pytest
 from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS, report
 
 from textmech.cases.mistake import CaseError
+from textmech.reports.data.row import Cause
 from textmech.reports.output import write
-from textmech.reports.output.diff.columns import BETTER, CHANGED, KNOWN, LOST, NEW, WORSE, Rule
-from textmech.reports.output.diff.compare import Change, Difference, Place, Seen, difference
+from textmech.reports.output.diff.columns import (
+    BETTER,
+    CHANGED,
+    KNOWN,
+    LOST,
+    NEW,
+    OF_A_RUN,
+    WORSE,
+    Rule,
+)  # fmt: skip
+from textmech.reports.output.diff.compare import Change, Content, Difference, difference
 from textmech.reports.output.diff.folder import opened
+from textmech.reports.output.diff.forms import looked_at
 
 RULE = Rule()
 
@@ -34,16 +45,17 @@ def test_the_committed_reports_do_not_differ_from_themselves() -> None:
     same = difference(folder, folder, RULE)
     assert not same.changes
     compared = {name: count.compared for name, count in same.counts.items()}
-    assert compared == {name: len(folder.tables[name].rows) for name in folder.tables}
+    assert compared == {name: len(rows) for name, rows in folder.tables.items()}
     assert all(compared[name] > 100 for name in KNOWN)
 
 
 @pytest.mark.slow
 def test_every_known_file_is_one_that_a_run_writes_with_these_columns() -> None:
     (folder,) = opened({"reports": write.HERE})
-    assert set(KNOWN) <= set(write.NAMES)
+    assert set(write.NAMES) == OF_A_RUN
+    assert set(folder.tables) == set(KNOWN)
     for name, columns in KNOWN.items():
-        assert set(columns.needed) <= set(folder.tables[name].columns)
+        assert set(columns.needed) <= set(folder.tables[name][0])
 
 
 @pytest.mark.parametrize(
@@ -75,7 +87,7 @@ def test_a_row_that_judged_a_number_and_is_gone_is_a_regression(
 ) -> None:
     other = replace(ROW, quantity="energy.total", verdict=verdict)
     change = only(found(tmp_path, {"rows": [ROW, other]}, {}))
-    assert (change.kind, change.place.what, change.now) == (WORSE, "energy.total", None)
+    assert (change.kind, change.place[2], change.new) == (WORSE, "energy.total", None)
 
 
 @pytest.mark.parametrize("verdict", ["refused", "diverged", "crashed", "FAILS"])
@@ -88,7 +100,7 @@ def test_a_row_that_judged_none_and_is_gone_is_lost(tmp_path: Path, verdict: str
 def test_a_new_row(tmp_path: Path, verdict: str, kind: str) -> None:
     other = replace(ROW, quantity="energy.total", verdict=verdict)
     change = only(found(tmp_path, {}, {"rows": [ROW, other]}))
-    assert (change.kind, change.was) == (kind, None)
+    assert (change.kind, change.old) == (kind, None)
 
 
 @pytest.mark.parametrize(
@@ -116,8 +128,8 @@ def test_words_that_rounding_decides_are_not_compared(tmp_path: Path) -> None:
 def test_a_step_that_only_one_ladder_has(tmp_path: Path) -> None:
     """Their errors are not compared: those of the judged step are in tolerance.csv."""
     change = only(found(tmp_path, {}, {"steps": [replace(STEPS[0], error=9.0)]}))
-    assert (change.kind, change.now) == (LOST, None)
-    assert change.place == Place("swing", "mujoco.tuned", "bar.angle (held, h = 0.002 s)")
+    assert (change.kind, change.new) == (LOST, None)
+    assert change.place == ("swing", "mujoco.tuned", "bar.angle (held, h = 0.002 s)")
 
 
 @pytest.mark.parametrize(
@@ -154,8 +166,8 @@ def test_a_check_of_a_reference(tmp_path: Path, now: dict[str, Any], kind: str |
 def test_an_equation_that_nothing_covers_any_more_is_a_regression(tmp_path: Path) -> None:
     bare = COVERED.assign(cases="")
     change = only(found(tmp_path, {}, {"covered": bare}))
-    assert (change.kind, change.place.what) == (WORSE, "equation (2.44)")
-    assert (change.was, change.now) == (Seen("swing"), Seen("not covered"))
+    assert (change.kind, change.place[2]) == (WORSE, "equation (2.44)")
+    assert (change.old, change.new) == (Content("swing"), Content("not covered"))
 
 
 def test_of_what_covers_only_cases_of_both_count(tmp_path: Path) -> None:
@@ -172,9 +184,9 @@ def test_a_partial_run_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
     part = found(tmp_path, {"rows": [ROW, other, slow]}, {})
     assert not part.changes
     count = part.counts["tolerance.csv"]
-    assert (count.compared, count.old, count.new) == (1, 2, 0)
+    assert (count.compared, count.left) == (1, (2, 0))
     whole = found(tmp_path, {"rows": [ROW, other, slow]}, {}, whole=True)
-    assert {(c.kind, c.place.case, c.place.column) for c in whole.changes} == {
+    assert {(c.kind, c.place[0], c.place[1]) for c in whole.changes} == {
         (WORSE, "other", "mujoco.tuned"),
         (WORSE, "swing", "mujoco.shipped"),
     }
@@ -198,13 +210,13 @@ def test_thresholds_are_options(tmp_path: Path) -> None:
     assert not found(tmp_path, {}, now, rule=Rule(floor=0.1)).changes
 
 
-CURES = pd.DataFrame(
+ADVICE = pd.DataFrame(
     [
-        ("swing", "mujoco", "bar.angle", "RK4", 1.0, ""),
-        ("swing", "mujoco", "bar.angle", "step", 2.0, "1/h"),
+        ("swing", "mujoco", "", 2, "both", "RK4", 1.0),
+        ("swing", "mujoco", 0.001, 2, "both", "", 2.0),
     ],
-    columns=["case", "engine", "quantity", "cure", "cost", "law"],
-)
+    columns=["case", "engine", "tolerance", "margin", "want", "recipe", "cost"],
+).assign(settings="", step=1e-3, shipped_cost=1.0, ratio=0.5, quantity="bar.angle", remains="")
 
 
 @pytest.mark.parametrize(
@@ -212,26 +224,21 @@ CURES = pd.DataFrame(
     [
         ("cost", [1.0, 3.0], "cost 2", "cost 3"),
         ("cost", [1.0, 2.001], None, None),
-        ("law", ["", "h"], "law 1/h", "law h"),
+        ("recipe", ["RK4", "none"], "", "recipe none"),
     ],
 )
-def test_a_file_that_nobody_knows_is_compared_cell_by_cell(
-    tmp_path: Path, column: str, cells: list[Any], was: str | None, now: str | None
+def test_a_file_without_a_judge_is_compared_cell_by_cell(
+    tmp_path: Path, column: str, cells: list[Any], was: str | None, now: str
 ) -> None:
-    other = CURES.assign(**{column: cells})
-    changes = found(tmp_path, {"further": {"c.csv": CURES}}, {"further": {"c.csv": other}}).changes
-    assert [(c.was, c.now) for c in changes] == ([(Seen(was), Seen(now or ""))] if was else [])
+    files = (
+        {"further": {"advice.csv": frame}} for frame in (ADVICE, ADVICE.assign(**{column: cells}))
+    )
+    changes = found(tmp_path, *files).changes
+    assert [(c.old, c.new) for c in changes] == (
+        [] if was is None else [(Content(was), Content(now))]
+    )
     for change in changes:
-        assert (change.kind, change.place) == (CHANGED, Place("swing", "mujoco", "bar.angle, step"))
-
-
-def test_rows_of_an_unknown_file_that_nothing_names_are_lost_and_new(tmp_path: Path) -> None:
-    one, two = (pd.DataFrame({"a": ["x", "x", y], "b": ["1", "2", "1"]}) for y in "yz")
-    changes = found(tmp_path, {"further": {"c.csv": one}}, {"further": {"c.csv": two}}).changes
-    assert [(change.kind, change.place.what) for change in changes] == [
-        (LOST, "y, 1"),
-        (NEW, "z, 1"),
-    ]
+        assert (change.kind, change.place) == (CHANGED, ("swing", "mujoco", "0.001, 2, both"))
 
 
 def test_a_file_of_one_folder_is_named(tmp_path: Path) -> None:
@@ -239,15 +246,23 @@ def test_a_file_of_one_folder_is_named(tmp_path: Path) -> None:
     assert (part.alone, part.changes) == (("advice.csv",), ())
 
 
-ADVICE = pd.DataFrame(
-    [("swing", "mujoco", "", "2", "RK4", "1"), ("swing", "mujoco", "0.001", "2", "RK4", "2")],
-    columns=["case", "engine", "tolerance", "margin", "recipe", "cost"],
-)
+CAUSE = Cause("swing", "mujoco", "tuned", "bar.angle", 2e-2, 1e-2, "RK4", "", 1e-3, 5e-3, 4.0, "")
+UNASKED = replace(CAUSE, cure="not searched", step=None, error_after=None, cost=None)
 
 
-def test_another_advice_for_the_same_question_is_one_change(tmp_path: Path) -> None:
-    other = ADVICE.assign(recipe=["RK4", "none"])
-    files = ({"further": {"advice.csv": frame}} for frame in (ADVICE, other))
-    change = only(found(tmp_path, *files))
-    assert (change.kind, change.place) == (CHANGED, Place("swing", "mujoco", "0.001, 2"))
-    assert (change.was, change.now) == (Seen("recipe RK4"), Seen("recipe none"))
+def test_causes_are_compared_where_both_runs_searched_for_them(tmp_path: Path) -> None:
+    """The committed reports have them, a plain run does not."""
+    other = replace(CAUSE, quantity="bar.omega")
+    old = {"causes": [CAUSE, other]}
+    part = found(tmp_path / "a", old, {"causes": [UNASKED, replace(other, cure="the step")]})
+    assert [(c.kind, c.place[2]) for c in part.changes] == [
+        (LOST, "bar.omega, RK4"),
+        (NEW, "bar.omega, the step"),
+    ]
+    assert part.counts["causes.csv"].searched == (1, 1)
+    (line,) = [line for line in looked_at(part) if "causes" in line]
+    assert line.startswith("not looked at: 1 row of OLD and 1 of NEW in causes.csv")
+    moved = found(tmp_path / "b", old, {"causes": [replace(CAUSE, cost=8.0), other]})
+    assert (only(moved).old, only(moved).new) == (Content("cost 4"), Content("cost 8"))
+    assert not any("causes" in line for line in looked_at(moved))
+    assert not found(tmp_path / "c", {"causes": [UNASKED]}, {"causes": []}).changes

@@ -9,9 +9,9 @@ from given.command import NEW, textmech
 from ruamel.yaml import YAML
 
 from textmech.reports.cli import command
+from textmech.reports.data import runs
 from textmech.reports.output import write
 from textmech.reports.output.diff.columns import Rule
-from textmech.reports.output.diff.folder import read
 
 README = (write.HERE / "README.md").read_text(encoding="utf-8")
 TEXT = README.partition("## Compare two versions\n")[2].partition("\n## ")[0]
@@ -61,7 +61,7 @@ def test_its_numbers_are_the_rules() -> None:
 
 
 def test_what_it_says_of_releases_is_in_the_table() -> None:
-    rows = read(write.HERE / "versions.csv").rows
+    rows = runs.table(write.HERE / "versions.csv")
     crank = {
         (row["version"], row["setting"]): row["error"]
         for row in rows

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from textmech.reports.output.diff.columns import Rule, factor
+from textmech.reports.output.diff.columns import Rule
+from textmech.reports.output.diff.compare import factor
 
 RULE = Rule()
 NUMBERS = st.none() | st.floats(min_value=0.0) | st.just(math.nan)
