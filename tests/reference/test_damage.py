@@ -19,13 +19,14 @@ FORCES = (
     "oil: {{damper: [rod.end, ground.O], damping: {d}}}, "
     "wind: {{push: rod.end, sine: {{amplitude: [{a}, {b}], angular_frequency: {w}}}}}}}"
 )
+SOUND = {"c": "40", "l": "0.2", "d": "0.1", "a": "1", "b": "0", "w": "5"}
 SIZES = st.floats(-29, 29).map(lambda e: f"{10.0**e:.3e}") | st.sampled_from(["0", "1", "1e3"])
 
 
 @st.composite
 def scenes(draw: st.DrawFn) -> str:
     """One or two numbers of any size, the others as they were."""
-    sound = {"c": "40", "l": "0.2", "d": "0.1", "a": "1", "b": "0", "w": "5"}
+    sound = dict(SOUND)
     other = {"length": "0.5", "angle": "0.3", "duration": "0.2", "step": "1.0e-3"}
     for key in draw(st.lists(st.sampled_from([*sound, *other]), min_size=1, max_size=2)):
         (sound if key in sound else other)[key] = draw(SIZES)
@@ -57,3 +58,13 @@ def test_any_numbers_give_a_motion_or_a_mistake_with_a_place(
 
     each()
     assert min(seen["solved"], seen["refused"]) >= 5
+
+
+def test_a_force_beyond_all_numbers_is_not_taken_for_a_spring_without_length(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "case.yaml"
+    strong = pendulum(forces=FORCES.format(**(SOUND | {"a": "1e29"})), samples=6)
+    file.write_text(strong, encoding="utf-8")
+    with pytest.raises(CaseError, match="cannot be followed beyond"):
+        solve(load(file)[0])
