@@ -1,4 +1,4 @@
-"""What a case takes for granted: that it rolls, moves or stays, and says where it lands."""
+"""What a case takes for granted: that it rolls, moves, and says where it lands."""
 
 from pathlib import Path
 
@@ -7,13 +7,10 @@ import pytest
 from given import scenes
 from given.refused import refused
 from given.rod import rod
-from given.scenes import typed
 from given.typed_scenes import AT_REST, CART, RAILED, WHEEL
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import solve
-
-# What a case takes for granted: that it rolls, moves, and says where it lands.
 
 AIMED = """\
 scene:
@@ -229,120 +226,3 @@ def test_the_friction_that_is_said_to_be_enough_is(tmp_path: Path) -> None:
     needs = what.partition("pivoting all the way needs ")[2]
     assert 70.28 <= float(needs) <= 70.29
     assert solve(scenes.typed(tmp_path, TOP.replace("MU", needs), tail=tail)).holds
-
-
-# A place that stays may be the claim itself: then it is compared, and it has to be true.
-
-# The end of the rod runs on a straight line, though nothing guides it there.
-SCOTT_RUSSELL = """\
-scene:
-  gravity: none
-  points: {O: [0, 0]}
-  bodies: {crank: {bar: {mass: 0.4, length: 0.5}}, rod: {bar: {mass: 0.8, length: 1.0}}}
-  joints:
-    axle: {pin: [ground.O, crank.start]}
-    middle: {pin: [crank.end, rod.center]}
-    foot: {slot: [ground.O, rod.start], along: [1, 0]}
-initial: {crank: {angle: 50 deg, omega: 0.3}}
-near: {rod: {angle: 130 deg}}
-allow: {rod.end.x: 1.0e-6, rod.end.y: 1.0e-3}
-"""
-
-
-@pytest.mark.slow
-def test_a_straight_line_that_a_linkage_keeps_is_a_claim(tmp_path: Path) -> None:
-    with pytest.raises(CaseError, match=r"say what is claimed: `stays: \[rod.end.x\]`"):
-        solve(typed(tmp_path, SCOTT_RUSSELL))
-    assert solve(typed(tmp_path, f"{SCOTT_RUSSELL}stays: [rod.end.x]\n")).holds
-
-
-@pytest.mark.parametrize("more", ["", "rests: true\n"])
-def test_what_is_said_to_stay_and_moves_is_a_mistake(tmp_path: Path, more: str) -> None:
-    with pytest.raises(CaseError) as caught:
-        solve(typed(tmp_path, f"{SCOTT_RUSSELL}stays: [rod.end.x, rod.end.y]\n{more}"))
-    (mistake,) = caught.value.mistakes
-    assert mistake.where == "stays.1"
-    assert mistake.what.startswith("moves by ")
-
-
-SLIDES = """\
-scene:
-  space: 3
-  gravity: none
-  points: {O: [0, 0, 0]}
-  bodies: {b: {rigid: {mass: 1, inertia: [0.5, 0.4, 0.3, 0.02, 0, 0]}}}
-  joints: {q: {slide: [ground.O, b.center], along: [1, 0, 0]}}
-initial: {q: {shift: 0, shift_dot: 3}}
-allow: {q.shift: 1.0e-3, b.omega_1: 1.0e-3}
-"""
-
-
-@pytest.mark.slow
-def test_where_nothing_turns_a_rate_of_rounding_is_none(tmp_path: Path) -> None:
-    """It has no size to be small against but 1 rad in the whole duration."""
-    assert solve(typed(tmp_path, f"{SLIDES}stays: [b.omega_1]\n")).holds
-    with pytest.raises(CaseError, match="never moves"):
-        solve(typed(tmp_path, SLIDES))
-
-
-@pytest.mark.mutant("a rate that changes by 1e-10 rad/s taken for one that stays")
-def test_a_rate_that_is_none_of_rounding_moves(tmp_path: Path) -> None:
-    """(2.33) ω̇₁ = (J₂ − J₃) ω₂ ω₃/J₁ = 6e-11 rad/s², where all turns are slow."""
-    free = """\
-scene:
-  space: 3
-  gravity: none
-  bodies: {b: {rigid: {mass: 1, inertia: [0.5, 0.4, 0.3, 0, 0, 0]}}}
-initial:
-  b: {x: 0, y: 0, z: 0, vx: 3, attitude: {axis: [0, 0, 1], angle: 0}, omega: [0, 3.0e-5, 1.0e-5]}
-allow: {b.x: 1.0e-3, b.omega_1: 1.0e-3}
-"""
-    with pytest.raises(CaseError, match="moves by"):
-        solve(typed(tmp_path, f"{free}stays: [b.omega_1]\n"))
-
-
-# A block that stands on one of two corners that only pivot: the other one carries nothing.
-
-ROCKS = """\
-scene:
-  bodies: {{b: {{block: {{mass: 2, width: 0.5, height: 1}}}}}}
-  contacts:
-    l: {{between: [b.lower_left, ground.floor], friction: {mu}{ideal}}}
-    r: {{between: [b.lower_right, ground.floor], friction: {mu}{ideal}}}
-initial: {{b: {{lower_left: [0, 0], angle: 0.1, omega: 0}}}}
-allow: {{b.angle: 1.0e-3, l.normal: 1.0e-1}}
-"""
-TAIL = scenes.tail(0.15, 11)
-
-
-def rocks(mu: float = 0.9, ideal: str = ", ideal: pivot") -> str:
-    return ROCKS.format(mu=mu, ideal=ideal)
-
-
-@pytest.mark.slow
-def test_the_corner_in_the_air_has_nothing_to_pull(tmp_path: Path) -> None:
-    found = solve(scenes.typed(tmp_path, rocks(), tail=TAIL))
-    assert found.holds
-    free = solve(scenes.typed(tmp_path, rocks(ideal=""), tail=TAIL)).trajectory
-    assert found.trajectory.states["b"] == pytest.approx(free.states["b"], abs=1e-12)
-    assert np.all(found.trajectory.reactions["r.normal"] == 0.0)
-
-
-def test_with_too_little_friction_it_would_slip(tmp_path: Path) -> None:
-    mistake = refused(scenes.typed(tmp_path, rocks(mu=0.1), tail=TAIL))
-    assert mistake.where == "scene.contacts.l.ideal"
-    assert "pivoting is not possible with friction 0.1" in mistake.what
-
-
-@pytest.mark.mutant("a block in the air taken for one on a corner")
-def test_a_block_that_leaves_the_floor_with_both_is_told(tmp_path: Path) -> None:
-    """It stands over its corner, and a hand lifts it with more than its weight after 49 ms."""
-    lifted = rocks().replace("angle: 0.1", "angle: 26.56505117707799 deg")
-    lifted = lifted.replace(
-        "initial", "  forces: {hand: {push: b.center, ramp: [0, 400]}}\ninitial"
-    )
-    with pytest.raises(CaseError) as caught:
-        solve(scenes.typed(tmp_path, lifted, tail=TAIL))
-    told = {mistake.where: mistake.what for mistake in caught.value.mistakes}
-    assert set(told) == {"scene.contacts.l.ideal", "scene.contacts.r.ideal"}
-    assert all("the floor would have to pull at t = 0.049 s" in what for what in told.values())

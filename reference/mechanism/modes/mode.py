@@ -188,7 +188,8 @@ class Multibody(Mode):
         if self._forces:
             Q = Q + self.table.numbers(t, q, v)[self._at_work, :G].sum(axis=0)
             if self._lined and np.isnan(Q).any():
-                raise NoDirection(next(self._short(t, q, v)))
+                for name in self._short(t, q, v):  # of none where a force is beyond all numbers
+                    raise NoDirection(name)
         for brake in self._braking:
             Q = Q + brake.force(t, q, v) * row(brake.along, t, q, v)[0]
         return Q
