@@ -121,7 +121,6 @@ class Processes(Executor):
         self._jobs = jobs
         self._pool: ProcessPoolExecutor | None = None
         self._broken = self._ended = False
-        self._apart: set[multiprocessing.Process] = set()
         self._words = [multiprocessing.RawArray("c", WORDS) for _ in range(jobs)]
         self._slots = [_Slot(words) for words in self._words]
         self._free: SimpleQueue[int] = SimpleQueue()
@@ -141,9 +140,6 @@ class Processes(Executor):
             self._threads.shutdown(wait=wait)
         self._ended = True
         self._kill_pool()
-        for process in [*self._apart]:
-            end_group(process.pid or 0)
-            process.kill()
         self._threads.shutdown(wait=wait, cancel_futures=True)
         if self._pool is not None:
             self._pool.shutdown(wait=wait, cancel_futures=True)
@@ -165,8 +161,6 @@ class Processes(Executor):
         slot, call = self._slots[index], (index, fn, args, kwargs)
         slot.task, slot.since = getattr(task, "name", ""), time.monotonic()
         try:
-            if self._ended:
-                return Died("the run was ended")
             if not (self._broken or _is_guest(task)):
                 assert self._pool is not None
                 try:
@@ -177,10 +171,9 @@ class Processes(Executor):
                     self._broken = True
                     self._kill_pool()
                     return Died(f"it takes longer than {most:g} s")
-            if self._ended:
-                return Died("the run was ended")
-            result, because = apart(_work_apart, self._words, *call, most=most, running=self._apart)
-            return Died(because) if because else result
+            given = self._words, *call
+            result, why_not = apart(_work_apart, *given, most=most, ended=lambda: self._ended)
+            return Died(why_not) if why_not else result
         finally:
             slot.task = ""
             self._free.put(index)
@@ -223,7 +216,9 @@ def _begin(words: list[Any]) -> None:
     end_with_parent()
     _WORDS[:] = words
     threading.Thread(target=_tell, daemon=True).start()
-    limit.hold(len(words))  # a thread that finds no room as it starts is waited for without end
+    limit.limit_memory(
+        len(words)
+    )  # a thread that finds no room as it starts is waited for without end
     silence()
     os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
     termination.leave_signals_to_parent()
