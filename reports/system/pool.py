@@ -216,9 +216,8 @@ def _begin(words: list[Any]) -> None:
     end_with_parent()
     _WORDS[:] = words
     threading.Thread(target=_tell, daemon=True).start()
-    limit.limit_memory(
-        len(words)
-    )  # a thread that finds no room as it starts is waited for without end
+    # After the thread: one that finds no room as it starts is waited for without end.
+    limit.limit_memory(len(words))
     silence()
     os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
     termination.leave_signals_to_parent()
