@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from queue import SimpleQueue
 from typing import Any
 
+from ... import engines
 from ...engines.probe import apart, end_group, end_with_parent, lead_group
 from ...engines.quiet import silence
 from ...reference.integrators.now import NOW, doing
@@ -109,12 +110,12 @@ def _result(future: Future) -> Any:
 
 
 class Processes(Executor):
-    """So many processes of this machine: one pool, and a process for each task of a guest.
+    """So many processes of this machine: a pool, and a process for each task of a foreign engine.
 
-    A task may have a `name`, a `limit` of its time [s], and be of a `guest`: of somebody else's
-    engine, which may do anything to its process. A task of ours that takes too long, or that ends
-    its process, breaks the pool; from then on each task has a process of its own, so that the one
-    that does it again costs nobody else.
+    A task may have a `name`, a `limit` of its time [s], and an `engine`; somebody else's may do
+    anything to its process. A task of ours that takes too long, or that ends its process, breaks
+    the pool; from then on each task has a process of its own, so that the one that does it again
+    costs nobody else.
     """
 
     def __init__(self, jobs: int) -> None:
@@ -161,7 +162,7 @@ class Processes(Executor):
         slot, call = self._slots[index], (index, fn, args, kwargs)
         slot.task, slot.since = getattr(task, "name", ""), time.monotonic()
         try:
-            if not (self._broken or _is_guest(task)):
+            if not (self._broken or _is_foreign(task)):
                 assert self._pool is not None
                 try:
                     return self._pool.submit(_work, *call).result(most)
@@ -185,8 +186,9 @@ class Processes(Executor):
             process.kill()
 
 
-def _is_guest(task: Any) -> bool:
-    return bool(getattr(task, "guest", ""))
+def _is_foreign(task: Any) -> bool:
+    engine = getattr(task, "engine", None)
+    return engine is not None and engines.foreign(engine.name)
 
 
 @dataclass
