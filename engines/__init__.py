@@ -31,11 +31,6 @@ def foreign(name: str) -> bool:
     return name in _found() and not _found()[name].value.startswith(f"{__name__}.")
 
 
-def guest(engine: Engine) -> str:
-    """Its name if it is somebody else's, which may leave anything behind in its process."""
-    return engine.name if foreign(engine.name) else ""
-
-
 def settings(name: str) -> tuple[str, ...]:
     """The names of the settings that the engine offers, in its order. Raises KeyError, Broken."""
     return _maker(name).offers

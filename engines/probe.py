@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, MutableSet
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from importlib.metadata import EntryPoint
 from math import isfinite
@@ -17,7 +17,7 @@ from typing import Any
 from ..cases.fields.text import no_formula
 from .quiet import quiet, silence
 
-GLANCE = 0.5  # s
+GLANCE = 0.2  # s
 SECONDS = 60.0  # of an import: the slowest package that anybody uses takes ten
 LETTERS = 100  # of a version
 
@@ -33,24 +33,24 @@ def apart(
     call: Callable[..., Any],
     *given: Any,
     most: float,
-    running: MutableSet[multiprocessing.Process] | None = None,
+    ended: Callable[[], bool] = lambda: False,
 ) -> tuple[Any, str]:
     """The call's value, from a process of its own that may take `most` s; or why there is none.
 
     Whatever it does meanwhile is done to another process, which ends with all that it has started.
-    running: holds the process while it runs, for whoever may have to end it sooner.
+    ended: is asked now and then whether nobody waits for the value any more.
     """
     here, there = multiprocessing.Pipe(duplex=False)
     process = multiprocessing.Process(target=_answer, args=(there, call, given), daemon=True)
     with _CHILDREN:
         process.start()  # looks at all others too
-    if running is not None:
-        running.add(process)
     there.close()
     try:
         until = time.monotonic() + most
         # What it forked may hold its end of the pipe: it is looked at now and then.
         while not here.poll(max(0.0, min(GLANCE, until - time.monotonic()))):
+            if ended():
+                return None, "the run was ended"
             if not _is_alive(process):
                 break
             if time.monotonic() >= until:
@@ -64,8 +64,6 @@ def apart(
         return None, error_text(error)
     finally:
         _end(process)
-        if running is not None:
-            running.discard(process)
     return None, f"its process ended ({_how(process.exitcode)})"
 
 

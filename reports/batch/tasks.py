@@ -10,7 +10,6 @@ from ...cases.case import Case
 from ...cases.language.check.work import LIMIT
 from ...cases.mistake import CaseError
 from ...cases.trajectory import Trajectory
-from ...engines import guest
 from ...engines.engine import Engine, Plan, Realised, Refusal
 from ...engines.knobs import Options
 from ...reference.solve import Solution, solve
@@ -48,11 +47,6 @@ class Pair:
     def name(self) -> str:
         """For whoever waits for it."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
-
-    @property
-    def guest(self) -> str:
-        """The engine, if it is somebody else's: its process answers for nobody else then."""
-        return guest(self.engine)
 
     @property
     def limit(self) -> float:
@@ -110,9 +104,9 @@ class Climb:
         return self.unit.pair.name
 
     @property
-    def guest(self) -> str:
-        """The engine, if it is somebody else's: its process answers for nobody else then."""
-        return guest(self.unit.pair.engine)
+    def engine(self) -> Engine:
+        """The engine whose numbers are read once more."""
+        return self.unit.pair.engine
 
     @property
     def limit(self) -> float:

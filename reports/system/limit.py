@@ -46,26 +46,26 @@ LEAST = 2.0  # GiB for one: engines and a case of ours take some 0.5
 GIB = 2**30
 
 
-def hold(jobs: int) -> None:
-    """From now on this process has its share of the memory, as one of so many, where that is told.
+def limit_memory(jobs: int) -> None:
+    """Limit this process, one of so many, to its share of the memory, where the system can.
 
-    It is beside what it has already, which may be all that a notebook holds. What it asks for
-    beyond is refused, as a MemoryError in Python. Room that is only reserved, as for a graphics
-    card, does not count. The environment has the share then, by which it is told: no row says how
-    much the process had before.
+    The share is beside what the process has already, which may be all that a notebook holds. What
+    it asks for beyond is refused, as a MemoryError in Python. Room that is only reserved, as for a
+    graphics card, does not count. The share is put into the environment, from which messages read
+    it: no row says how much the process had before.
     """
     with suppress(ImportError, AttributeError, OSError, ValueError):  # no POSIX, or a lower limit
         import resource
 
-        share = _gib(jobs)
-        most = _held() + int(GIB * share)
+        share = _share(jobs)
+        most = _data_size() + int(GIB * share)
         hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
         if hard == resource.RLIM_INFINITY or most < hard:
             resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
             os.environ[MEMORY] = repr(share)
 
 
-def _held() -> int:
+def _data_size() -> int:
     """Bytes of data that this process has, as its parent had them; 0 where nothing tells."""
     with (
         suppress(OSError, ValueError, IndexError),
@@ -86,7 +86,7 @@ def memory_limit_text() -> str:
     return ""
 
 
-def _gib(jobs: int) -> float:
+def _share(jobs: int) -> float:
     """GiB of each of so many processes."""
     all_of_it = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / GIB
     return _said(max(LEAST, SHARE * all_of_it / jobs))

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from queue import SimpleQueue
 from typing import Any
 
+from ... import engines
 from ...engines.probe import apart, end_group, end_with_parent, lead_group
 from ...engines.quiet import silence
 from ...reference.integrators.now import NOW, doing
@@ -109,19 +110,18 @@ def _result(future: Future) -> Any:
 
 
 class Processes(Executor):
-    """So many processes of this machine: one pool, and a process for each task of a guest.
+    """So many processes of this machine: a pool, and a process for each task of a foreign engine.
 
-    A task may have a `name`, a `limit` of its time [s], and be of a `guest`: of somebody else's
-    engine, which may do anything to its process. A task of ours that takes too long, or that ends
-    its process, breaks the pool; from then on each task has a process of its own, so that the one
-    that does it again costs nobody else.
+    A task may have a `name`, a `limit` of its time [s], and an `engine`; somebody else's may do
+    anything to its process. A task of ours that takes too long, or that ends its process, breaks
+    the pool; from then on each task has a process of its own, so that the one that does it again
+    costs nobody else.
     """
 
     def __init__(self, jobs: int) -> None:
         self._jobs = jobs
         self._pool: ProcessPoolExecutor | None = None
         self._broken = self._ended = False
-        self._apart: set[multiprocessing.Process] = set()
         self._words = [multiprocessing.RawArray("c", WORDS) for _ in range(jobs)]
         self._slots = [_Slot(words) for words in self._words]
         self._free: SimpleQueue[int] = SimpleQueue()
@@ -141,9 +141,6 @@ class Processes(Executor):
             self._threads.shutdown(wait=wait)
         self._ended = True
         self._kill_pool()
-        for process in [*self._apart]:
-            end_group(process.pid or 0)
-            process.kill()
         self._threads.shutdown(wait=wait, cancel_futures=True)
         if self._pool is not None:
             self._pool.shutdown(wait=wait, cancel_futures=True)
@@ -165,9 +162,7 @@ class Processes(Executor):
         slot, call = self._slots[index], (index, fn, args, kwargs)
         slot.task, slot.since = getattr(task, "name", ""), time.monotonic()
         try:
-            if self._ended:
-                return Died("the run was ended")
-            if not (self._broken or _is_guest(task)):
+            if not (self._broken or _is_foreign(task)):
                 assert self._pool is not None
                 try:
                     return self._pool.submit(_work, *call).result(most)
@@ -177,10 +172,9 @@ class Processes(Executor):
                     self._broken = True
                     self._kill_pool()
                     return Died(f"it takes longer than {most:g} s")
-            if self._ended:
-                return Died("the run was ended")
-            result, because = apart(_work_apart, self._words, *call, most=most, running=self._apart)
-            return Died(because) if because else result
+            given = self._words, *call
+            result, why_not = apart(_work_apart, *given, most=most, ended=lambda: self._ended)
+            return Died(why_not) if why_not else result
         finally:
             slot.task = ""
             self._free.put(index)
@@ -192,8 +186,9 @@ class Processes(Executor):
             process.kill()
 
 
-def _is_guest(task: Any) -> bool:
-    return bool(getattr(task, "guest", ""))
+def _is_foreign(task: Any) -> bool:
+    engine = getattr(task, "engine", None)
+    return engine is not None and engines.foreign(engine.name)
 
 
 @dataclass
@@ -223,7 +218,8 @@ def _begin(words: list[Any]) -> None:
     end_with_parent()
     _WORDS[:] = words
     threading.Thread(target=_tell, daemon=True).start()
-    limit.hold(len(words))  # a thread that finds no room as it starts is waited for without end
+    # After the thread: one that finds no room as it starts is waited for without end.
+    limit.limit_memory(len(words))
     silence()
     os.chdir(tempfile.gettempdir())  # engines write logs: let it not be the user's folder
     termination.leave_signals_to_parent()

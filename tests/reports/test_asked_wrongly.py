@@ -145,7 +145,7 @@ def test_memory_is_counted_from_what_a_process_has(monkeypatch: pytest.MonkeyPat
     with pool.local(1) as executor:
         assert executor.submit(abs, -3).result(timeout=60) == 3
     assert len(held) > 0.3 * limit.GIB
-    monkeypatch.setattr(limit, "_held", lambda: 0)
+    monkeypatch.setattr(limit, "_data_size", lambda: 0)
     with pool.local(1) as executor:
         assert executor.submit(bytearray, 10**8).exception(timeout=60) is not None
 

@@ -62,9 +62,18 @@ class Task:
     """A task of ours, or of somebody else's engine."""
 
     what: Any
-    guest: str = ""
+    foreign: bool = False
     limit: float = 60.0
     name: str = ""
+
+    @property
+    def engine(self) -> SimpleNamespace:
+        return SimpleNamespace(name="strange" if self.foreign else "mujoco")
+
+
+@pytest.fixture(autouse=True)
+def strange(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool.engines, "foreign", lambda name: name == "strange")
 
 
 def worked(task: Task) -> int:
@@ -72,9 +81,9 @@ def worked(task: Task) -> int:
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-@pytest.mark.parametrize("guest", ["", "one"])
-def test_whatever_a_task_does_it_is_told_and_costs_no_other(guest: str, jobs: int) -> None:
-    tasks = [Task(what, guest) for what in (*range(12), 3, 8, 3, *range(12))]
+@pytest.mark.parametrize("foreign", [False, True])
+def test_whatever_a_task_does_it_is_told_and_costs_no_other(foreign: bool, jobs: int) -> None:
+    tasks = [Task(what, foreign) for what in (*range(12), 3, 8, 3, *range(12))]
     with pool.local(jobs) as executor:
         found = dict(pool.spread(worked, tasks, executor))
     for index, task in enumerate(tasks):
@@ -93,13 +102,13 @@ def test_engines_do_not_write_into_the_users_folder(tmp_path, monkeypatch) -> No
 
 
 def leftovers(task: Task) -> tuple[int, tuple[object, ...]]:
-    """The process that works, and what a guest changes of it."""
+    """The process that works, and what a foreign engine changes of it."""
     found = (
         os.environ.get("LEFT_BEHIND"), os.getcwd(), signal.getsignal(signal.SIGTERM),
         sys.getrecursionlimit(), np.geterr()["over"], hasattr(os, "added"),
     )  # fmt: skip
-    if task.guest:
-        os.environ["LEFT_BEHIND"] = task.guest
+    if task.foreign:
+        os.environ["LEFT_BEHIND"] = "something"
         os.chdir("/")
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         sys.setrecursionlimit(999)
@@ -113,13 +122,13 @@ def leftovers(task: Task) -> tuple[int, tuple[object, ...]]:
 def test_what_an_engine_leaves_behind_reaches_nobody_else(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    tasks = [Task(0, name) for name in ("", "one", "one", "", "two", "one", "")]
+    tasks = [Task(0, foreign) for foreign in (False, True, True, False, True, True, False)]
     with pool.local(1) as executor:
         found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
     assert len({left for _, left in found}) == 1
     assert capfd.readouterr().out == ""
     assert len({found[i][0] for i in (0, 3, 6)}) == 1  # ours has a process that stays
-    monkeypatch.setattr(pool, "_is_guest", lambda task: False)
+    monkeypatch.setattr(pool, "_is_foreign", lambda task: False)
     with pool.local(1) as executor:
         found = [each for _, each in sorted(pool.spread(leftovers, tasks, executor))]
     assert all(map(operator.ne, found[0][1], found[3][1]))
@@ -131,9 +140,9 @@ def slept(task: Task) -> str:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("guest", ["", "one"])
-def test_a_task_that_hangs_is_ended(guest: str) -> None:
-    tasks = [Task(0.0), Task(3600.0, guest, 1.0), *[Task(0.1)] * 4]
+@pytest.mark.parametrize("foreign", [False, True])
+def test_a_task_that_hangs_is_ended(foreign: bool) -> None:
+    tasks = [Task(0.0), Task(3600.0, foreign, 1.0), *[Task(0.1)] * 4]
     with pool.local(2) as executor:
         found = dict(pool.spread(slept, tasks, executor))
     assert found.pop(1) == pool.Died("it takes longer than 1 s")
@@ -204,7 +213,7 @@ def double(task: Task) -> int:
 @pytest.mark.slow
 def test_a_task_that_comes_back_twice_is_answered_once() -> None:
     with pool.local(1) as executor:
-        tasks = [Task(what, "one") for what in range(4)]
+        tasks = [Task(what, foreign=True) for what in range(4)]
         assert dict(pool.spread(double, tasks, executor)) == {n: n * n for n in range(4)}
 
 
@@ -223,13 +232,13 @@ def leaves(task: Task) -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("what an engine starts outlives the run")
 @pytest.mark.skipif(not TOLD, reason="nothing tells what runs")
-@pytest.mark.parametrize(("guest", "dies"), [("", False), ("one", False), ("one", True)])
+@pytest.mark.parametrize(("foreign", "dies"), [(False, False), (True, False), (True, True)])
 def test_what_a_task_starts_ends_with_the_pool_and_hides_no_death(
-    guest: str, dies: bool, tmp_path: Path
+    foreign: bool, dies: bool, tmp_path: Path
 ) -> None:
     told, begun = tmp_path / "left", time.monotonic()
     with pool.local(1) as executor:
-        found = dict(pool.spread(leaves, [Task((told, dies), guest)], executor))
+        found = dict(pool.spread(leaves, [Task((told, dies), foreign)], executor))
         left = int(told.read_text(encoding="utf-8"))
     assert found == {0: pool.Died("its process ended (SIGKILL)") if dies else None}
     assert time.monotonic() - begun < 15  # s: of the 60 that it would be waited for

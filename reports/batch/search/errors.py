@@ -7,8 +7,7 @@ from math import inf, isnan
 import numpy as np
 
 from ....cases.trajectory import Array
-from ....engines import guest
-from ....engines.engine import Plan
+from ....engines.engine import Engine, Plan
 from ...compare.judge import metric
 from ...compare.judge.error_instant import away_from_instants
 from ...compare.trial.phases import STARTS, Begun, Phases
@@ -39,9 +38,9 @@ class Run:
         return f"{self.pair.case.name} in {self.pair.engine.name}"
 
     @property
-    def guest(self) -> str:
-        """The engine, if it is somebody else's: its process answers for nobody else then."""
-        return guest(self.pair.engine)
+    def engine(self) -> Engine:
+        """The engine, whose options are others."""
+        return self.pair.engine
 
     @property
     def limit(self) -> float:

@@ -12,7 +12,6 @@ from ....cases.case import Case
 from ....cases.scene.observe import motion_of, observe
 from ....cases.scene.quantity import at_event, told_by
 from ....cases.trajectory import Array, Trajectory
-from ....engines import guest
 from ....engines.engine import Claims, Diverged, Engine, Plan, Start
 from ...system.limit import limit
 from ...system.table_text import spelled
@@ -51,11 +50,6 @@ class Rung:
     def name(self) -> str:
         """For whoever waits for it."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
-
-    @property
-    def guest(self) -> str:
-        """The engine, if it is somebody else's: its process answers for nobody else then."""
-        return guest(self.engine)
 
     @property
     def steps(self) -> float:
