@@ -25,7 +25,7 @@ UNREAD = {
     "because": "of engines",
     "tube": "of engines: the one case that has it asks nothing beside its events but times",
     # states
-    "states": "how a seed draws is not said: `test_states.py` takes what the reference drew",
+    "states": "how a seed draws is not said: `test_random.py` takes what the reference drew",
     "random": "as states",
     "seed": "as states",
     "q": "as states",
