@@ -1,5 +1,6 @@
-"""What becomes of the words of a case in space."""
+"""What becomes of the words of a case in space, and every mistake that only it can have."""
 
+import re
 from math import cos, pi, radians, sin
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from given.spatial_motions import turn
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
+from textmech.cases.mistake import CaseError
 from textmech.cases.scene import (
     STANDARD_GRAVITY,
     Anchor,
@@ -25,6 +27,9 @@ from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import matrix
+
+# What becomes of the words of a case in space.
+
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -155,3 +160,198 @@ def test_each_turn_of_an_attitude_is_about_the_axes_that_those_before_it_leave(
     about_x = turn([cos(0.1), sin(0.1), 0.0], radians(30))
     expected = about_x @ turn(Z, 0.1)
     np.testing.assert_allclose(matrix(np.array(found)), expected, atol=1e-15)
+
+
+# Every mistake that only a case in space can have: its place, its field, and what is said.
+
+
+ENGINES = {"mujoco": ("shipped", "tuned"), "pymunk": ("shipped", "tuned")}
+TABLE = Path(__file__).with_name("mistakes.txt").read_text(encoding="utf-8")
+EACH = re.findall(r"^- (.*)\n\+ (.*)\n(\d+:\d+): ([^:]*): (.*)$", TABLE, flags=re.MULTILINE)
+
+
+def mistakes(tmp_path: Path, text: str) -> list[tuple[str, str, str]]:
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    try:
+        load(path, engines=ENGINES)
+    except CaseError as error:
+        return [(f"{m.line}:{m.column}", m.where, m.what) for m in error.mistakes]
+    return []
+
+
+def test_sound(tmp_path: Path) -> None:
+    assert mistakes(tmp_path, SOUND) == []
+
+
+def test_table_is_read_whole() -> None:
+    assert len(EACH) == TABLE.count("\n- ") > 80
+
+
+@pytest.mark.parametrize(("old", "new", "place", "field", "what"), EACH)
+def test_each(tmp_path: Path, old: str, new: str, place: str, field: str, what: str) -> None:
+    assert SOUND.count(old) == 1
+    text = SOUND.replace(old, new.replace(r"\n", "\n"))
+    assert mistakes(tmp_path, text) == [(place, field, what)]
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_a_mistaken_parameter_is_named_once(tmp_path: Path, free: bool) -> None:
+    """What it spoils is neither judged nor computed with: lengths, tensors and axes."""
+    text = SOUND.replace("along: [0, 3, 4]", "along: [0, 3, J]").replace("J: 0.05", "J: 0.05 q")
+    text = text.replace("l: 0.8 m", "l: 0.8 q").replace("{slide: [1, 0, 0]}", "{slide: [1, J, 0]}")
+    if free:  # the bar hangs on its spring alone
+        text = text.replace("bar.start]", "box.center]")
+        text = text.replace("universal: [bar.end, box", "universal: [box.center, top")
+    assert [where for _, where, _ in mistakes(tmp_path, text)] == ["parameters.l", "parameters.J"]
+
+
+def test_all_at_once(tmp_path: Path) -> None:
+    """A broken part hides no other, and drags nothing along: q1's own quantities are not named."""
+    text = SOUND.replace("axis: [0, 0, 2]", "axis: [0, 0]")
+    text = text.replace("touch.slip: unknown", "touch.slp: unknown")
+    text = text.replace("constant: [1.0, 0, 0]", "constant: [1.0]")
+    text = text.replace("slide: [ground.O, bob.center]", "slide: [ground.O, bobb.center]")
+    text = text.replace("y: 0, z: 0.25", "yy: 0, z: 0.25 kg")
+    assert [(where, what) for _, where, what in mistakes(tmp_path, text)] == [
+        ("scene.joints.q1.axis", "should be a list of 3, has 2"),
+        ("scene.joints.rail.slide.1", "unknown body 'bobb'; did you mean 'bob'?"),
+        ("scene.forces.hand.constant", "should be a list of 3, has 1"),
+        ("initial.globe.yy", "unknown key 'yy'; did you mean 'y'?"),
+        ("initial.globe.z", "is '0.25 kg', but m was expected"),
+        ("allow.touch.slp", "unknown quantity 'touch.slp'; did you mean 'touch.slip'?"),
+    ]
+
+
+# A body that nothing keeps from turning about an axis, and that has no inertia about it.
+
+
+TEXT = """\
+title: A body on its joints
+scene:
+  space: 3
+  points: {{O: [0, 0, 0], Q: [1, 0, 0]}}
+  bodies:
+    rod: {body}
+    box: {{block: {{mass: 1.0, size: [0.1, 0.1, 0.1]}}}}
+  joints: {{{joints}}}
+initial: {{box: {{x: 0}}}}
+duration: 1.0
+samples: 26
+allow: {{box.x: 1.0e-3}}
+"""
+BAR = "{bar: {mass: 1.0, length: 0.5}, points: {side: [0.1, 0.2, 0], on: [0.1, 0, 0]}}"
+THIN = "{rigid: {mass: 1.0, inertia: [0.5, 0.5, 1.0, -0.5, 0, 0]}, points: {P: [0.1, 0.1, 0]}}"
+
+
+def said(tmp_path: Path, body: str, joints: str) -> list[str]:
+    path = tmp_path / "case.yaml"
+    path.write_text(TEXT.format(body=body, joints=joints), encoding="utf-8")
+    try:
+        load(path)
+    except CaseError as error:
+        return [f"{m.line} {m.where}: {m.what}" for m in error.mistakes]
+    return []
+
+
+@pytest.mark.parametrize(
+    ("body", "joints"),
+    [
+        (BAR, ""),
+        (BAR, "a: {ball: [ground.O, rod.start]}"),
+        (BAR, "a: {ball: [ground.O, rod.on]}"),
+        (BAR, "a: {ball: [ground.O, rod.start]}, b: {ball: [ground.Q, rod.end]}"),
+        (BAR, "a: {hinge: [ground.O, rod.start], axis: [-2, 0, 0]}"),
+        (BAR, "a: {universal: [ground.O, rod.start], axes: [[0, 1, 0], [1, 0, 0]]}"),
+        (BAR, "a: {universal: [rod.end, box.center], axes: [[1, 0, 0], [0, 1, 0]]}"),
+        (THIN, ""),
+        (THIN, "a: {ball: [ground.O, rod.P]}"),
+    ],
+)
+def test_turns_freely(tmp_path: Path, body: str, joints: str) -> None:
+    (mistake,) = said(tmp_path, body, joints)
+    assert mistake.startswith("6 scene.bodies.rod: ")
+    bar = "'rod' is a slender bar: nothing keeps it from turning about its own axis, and it has "
+    bar += "no inertia about that; give it as a `rigid` with a tensor"
+    thin = "nothing keeps 'rod' from turning about [0.707, 0.707, 0], and it has no inertia about "
+    assert mistake.endswith(bar if body == BAR else thin + "that")
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        "a: {hinge: [ground.O, rod.start], axis: [0, 0, 1]}",
+        "a: {ball: [ground.O, rod.side]}",  # where its own axis swings about the point
+        "a: {slide: [ground.O, rod.start], along: [1, 0, 0]}",
+        "a: {weld: [box.center, rod.start]}",
+        "a: {universal: [ground.O, rod.start], axes: [[0, 1, 0], [0, 0, 1]]}",
+        "a: {ball: [ground.O, rod.start]}, b: {hinge: [rod.end, box.center], axis: [0, 1, 0]}",
+        "a: {freedoms: {x: {slide: [0, 0, 1]}, t: {hinge: [0, 1, 0]}}, of: [ground.O, rod.start]}",
+    ],
+)
+def test_held_or_with_inertia(tmp_path: Path, joints: str) -> None:
+    assert said(tmp_path, BAR, joints) == []
+
+
+# What asks for endless work in space is said when the file is read, as in the plane.
+
+
+ON_A_HINGE = """\
+title: A body on a hinge
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies:
+    rod: {{bar: {{mass: 1.0, length: {length}}}}}
+    ball: {{sphere: {{mass: 1, radius: 0.1}}}}
+  joints: {{q: {{hinge: [ground.O, rod.start], axis: [0, 1, 0]}}}}
+  forces: {{{forces}}}
+  drive: {{{drive}}}
+initial: {{q: {{angle: 0.3, omega: {omega}}}, ball: {{omega: {spin}}}}}
+duration: 10.0
+samples: {samples}
+allow: {{q.angle: 1.0e-2}}
+"""
+
+
+def limits_said(tmp_path: Path, **changed: object) -> list[str]:
+    given = {"length": 0.5, "forces": "", "drive": "", "omega": 1, "spin": "[0, 0, 1]"}
+    path = tmp_path / "case.yaml"
+    path.write_text(ON_A_HINGE.format(**given | {"samples": 26} | changed), encoding="utf-8")
+    try:
+        load(path)
+    except CaseError as error:
+        return [f"{m.where}: {m.what}" for m in error.mistakes if "limit" in m.what]
+    return []
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"length": 1e-7}, "duration: scene.bodies.rod swings at 1.21e+04 rad/s"),
+        ({"omega": 1e5}, "duration: initial.q swings at 1e+05 rad/s"),
+        ({"spin": "[0, -1.0e6 rpm, 0]"}, "duration: initial.ball swings at 1.05e+05 rad/s"),
+        ({"drive": "q.omega: 1.0e4"}, "duration: scene.drive.q.omega swings at 1e+04 rad/s"),
+        ({"drive": "q.omega: {ramp: 1.0e3}"}, "scene.drive.q.omega swings at 1e+04 rad/s"),
+        (
+            {"drive": "q.omega: {sine: {amplitude: 1, angular_frequency: 1.0e4}}"},
+            "scene.drive.q.omega swings at 1e+04 rad/s",
+        ),
+        (
+            {"forces": "s: {spring: [ball.center, ground.O], stiffness: 1.0e8, rest_length: 0}"},
+            "duration: scene.forces.s swings at 1e+04 rad/s",
+        ),
+        ({"samples": 200_000}, "samples: 200000 samples of 2 bodies, at most 1 of which hang"),
+    ],
+)
+def test_endless_work_is_said_with_its_number(
+    tmp_path: Path, changed: dict[str, object], words: str
+) -> None:
+    (mistake,) = limits_said(tmp_path, **changed)
+    assert words in mistake
+    assert "--allow-long" in mistake
+
+
+def test_what_takes_minutes_is_not_said(tmp_path: Path) -> None:
+    assert limits_said(tmp_path) == []
+    assert limits_said(tmp_path, omega=1e2, spin="[0, 0, 1.0e2]", drive="q.omega: {ramp: 10}") == []
