@@ -1,21 +1,42 @@
-"""The command as a user meets it: what it prints, where, and its exit codes."""
+"""The command as a user meets it: what it prints, where, its exit codes, its documents."""
 
+import importlib
+import json
+import math
 import os
 import re
 import signal
+import subprocess
+import sys
 from collections.abc import Sequence
+from dataclasses import replace
+from math import inf, nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from given import scenes
 from given.command import NEW, process, textmech
+from given.lines import row
+from given.otherwise import otherwise
 
 from textmech.cases.case import Case
+from textmech.cases.find import questions
+from textmech.cases.mistake import Mistake
+from textmech.cases.scene import unnamed
+from textmech.cases.scene.unnamed import through
 from textmech.reference import solve as solving
+from textmech.reference.solve import solve
+from textmech.reports import solve as solved
 from textmech.reports.batch.selection import choose_engines
+from textmech.reports.batch.suite import Report
+from textmech.reports.data.row import BEYOND, FAILS
 from textmech.reports.output import write
+from textmech.reports.show.document import write as write_document
 from textmech.reports.system import limit
+
+# The command as a user meets it: what it prints, where, and its exit codes.
 
 
 @pytest.fixture(autouse=True)
@@ -352,3 +373,340 @@ def test_a_file_whose_check_breaks_down_costs_only_itself(
     done = textmech("check", "b.yaml", "a.yaml", "--jobs", 2, folder=tmp_path)
     assert (done.returncode, done.stdout) == (2, "a.yaml: 1 case, no mistakes\n")
     assert "b.yaml: could not be checked: RuntimeError: of ours" in done.stderr
+
+
+# What `textmech run` ends with: a README promises a code for each, and for two at once.
+
+
+RUN = importlib.import_module("textmech.reports.command.run")
+MISTAKE = Mistake("bad.yaml", 1, 1, "title", "missing key 'title'")
+
+
+def code(verdict: str, *words: str, mistakes: bool = False, module: Any = RUN) -> int:
+    """Of a run with one row and, or not, one file that was left out."""
+    found = Report(comparisons=[replace(row(), verdict=verdict)])
+    found.mistakes = [MISTAKE] if mistakes else []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "looked_at", lambda *_, **__: found)
+        return module.run.main(["swing", *words], standalone_mode=False)
+
+
+@pytest.mark.parametrize("words", [(), ("--json",)])
+@pytest.mark.parametrize("writes", [False, True])
+@pytest.mark.parametrize(
+    ("verdict", "mistakes", "wanted"),
+    [(BEYOND, False, 0), (FAILS, False, 1), (BEYOND, True, 2), (FAILS, True, 2)],
+)
+def test_the_exit_code_says_what_the_readme_promises(
+    tmp_path: Path, words: tuple[str, ...], writes: bool, verdict: str, mistakes: bool, wanted: int
+) -> None:
+    out = ("--out", str(tmp_path / "out")) if writes else ()
+    assert code(verdict, *words, *out, mistakes=mistakes) == wanted
+
+
+@pytest.mark.mutant("exit code 1 where mistakes and FAILS come together")
+def test_a_mistake_outweighs_a_verdict() -> None:
+    was = "BAD_INPUT if mistakes else FAILED if report.fails else 0"
+    other = otherwise(RUN, was, "FAILED if report.fails else BAD_INPUT if mistakes else 0")
+    assert code(FAILS, mistakes=True) == 2
+    assert code(FAILS, mistakes=True, module=other) == 1
+
+
+@pytest.mark.mutant("exit code 0 where reports are written, whatever fails")
+def test_reports_that_are_written_hide_no_verdict(tmp_path: Path) -> None:
+    words = ("--out", str(tmp_path / "out"))
+    other = otherwise(RUN, "if report.fails else 0", "if report.fails and out is None else 0")
+    assert code(FAILS, *words) == 1
+    assert code(FAILS, *words, module=other) == 0
+
+
+def test_what_only_shows_ends_well(tmp_path: Path) -> None:
+    """As reports/README.md says of page."""
+    found = Report(comparisons=[replace(row(), verdict=FAILS)])
+    page = importlib.import_module("textmech.reports.command.page")
+    written = importlib.import_module("textmech.reports.page.page")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page, "looked_at", lambda *_, **__: found)
+        patch.setattr(written, "write_measured", lambda *_, **__: None)
+        words = ["swing", "--out", str(tmp_path / "out")]
+        assert not page.page.main(words, standalone_mode=False)
+
+
+@pytest.mark.parametrize("words", [("--version",), (), ("run", "--help"), ("show", "four_bar")])
+def test_python_m_textmech_is_the_command(words: tuple[str, ...]) -> None:
+    command = Path(sys.executable).with_name("textmech")
+    said = [
+        subprocess.run([*line, *words], capture_output=True, text=True, check=False)
+        for line in ((command,), (sys.executable, "-m", "textmech"))
+    ]
+    one, other = ((done.returncode, done.stdout, done.stderr) for done in said)
+    assert one == other
+    assert any(one[1:])
+
+
+# `--json`: one document on the output, whatever becomes of the command.
+
+
+def document(*words: object) -> dict[str, Any]:
+    """The output, which is JSON in the strict sense, and nothing else."""
+    done = textmech(*words, "--json")
+
+    def none(name: str) -> None:
+        raise AssertionError(f"{name} is no JSON")
+
+    found = json.loads(done.stdout, parse_constant=none)
+    assert found.get("exit_code", 0) == done.returncode
+    return found
+
+
+@pytest.mark.slow
+def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
+    found = document("run", new, "--engine", "mujoco.tuned", "--out", tmp_path / "o")
+    assert list(found) == [
+        "summary",
+        "tolerance",
+        "convergence",
+        "steps",
+        "events",
+        "reference",
+        "causes",
+        "warnings",
+        "mistakes",
+        "written",
+        "exit_code",
+    ]
+    assert [row["quantity"] for row in found["tolerance"]] == ["audit", "cart.x", "rod.angle"]
+    assert found["summary"] == [
+        {
+            "case": "cart",
+            "setting": "mujoco.tuned",
+            "worst": "agrees",
+            "agrees": "tuned 8 ms",
+            "cured": "",
+        }
+    ]
+    assert found["written"] == str(tmp_path / "o")
+    assert {row["verdict"] for row in found["reference"]} == {"holds"}
+
+
+@pytest.mark.slow
+def test_a_verdict_that_fails_is_in_it(new: Path) -> None:
+    new.write_text(f"{NEW}reach: {{mujoco: {{rod.angle: 1.0e-13}}}}\n", encoding="utf-8")
+    found = document("run", new, "--engine", "mujoco.tuned")
+    assert found["exit_code"] == 1
+    assert "FAILS" in {row["verdict"] for row in found["tolerance"]}
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_mistakes_are_in_it_with_their_places(command: str, new: Path) -> None:
+    new.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")
+    found = document(command, new)
+    (mistake,) = found.get("mistakes") or found["files"][0]["mistakes"]
+    assert mistake["file"] == str(new)
+    assert (mistake["line"], mistake["column"]) == (5, 20)
+    assert mistake["field"] == "scene.bodies.cart.block.mass"
+    assert found["exit_code"] == 2
+
+
+@pytest.mark.slow
+def test_one_of_two_files_is_left_out_and_the_other_is_told(new: Path) -> None:
+    other = new.with_name("other.yaml")
+    other.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")
+    found = document("run", new, other, "--engine", "pymunk.tuned")
+    assert {row["case"] for row in found["tolerance"]} == {"cart"}
+    assert [mistake["file"] for mistake in found["mistakes"]] == [str(other)]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "four_bra"),
+        ("run", "four_bar", "--engine", "mojoco"),
+        ("causes", "four_bra"),
+        ("advise", "four_bra"),
+    ],
+)
+def test_a_wrong_word_is_in_it(words: tuple[str, ...]) -> None:
+    (mistake,) = document(*words)["mistakes"]
+    assert "did you mean" in mistake["what"]
+
+
+def test_check_tells_each_file(new: Path) -> None:
+    found = document("check", new)
+    nothing = {"mistakes": [], "fails": [], "because": [], "warnings": []}
+    assert found == {"files": [{"file": str(new), "cases": ["cart"], **nothing}], "exit_code": 0}
+
+
+@pytest.mark.slow
+def test_list_tells_every_case_and_its_group() -> None:
+    cases = {case["name"]: case for case in document("list")["cases"]}
+    assert cases["sliding_block.below"]["group"] == "textbook"
+    assert cases["four_bar"]["source"] == "figure 2.3, (2.14), (2.60)"
+    asked = {name for name, case in cases.items() if case["group"] == "questions"}
+    assert {name.partition(".")[0] for name in asked} == set(questions())  # with its variants
+    assert all("#" in cases[name]["thread"] for name in asked)
+
+
+def test_what_json_has_not_is_null(capsys: pytest.CaptureFixture[str]) -> None:
+    write_document(
+        {"rows": [{"error": inf, "ratio": nan}, {"error": 1e300}], "title": "→ \x1b[31m"}
+    )
+    out = capsys.readouterr().out
+    assert out.isascii()
+    assert json.loads(out) == {
+        "rows": [{"error": None, "ratio": None}, {"error": 1e300}],
+        "title": "→ \x1b[31m",
+    }
+
+
+LOUD = """\
+import os
+import subprocess
+import sys
+import sys
+
+from textmech.engines.pymunk import Pymunk
+from textmech.reports import cli
+
+quiet = Pymunk.run
+
+
+def run(*args, **kwargs):
+    print("a banner")
+    os.write(1, b"and more\\n")  # as a library in C does
+    return quiet(*args, **kwargs)
+
+
+Pymunk.run = run
+cli.main()
+"""
+
+
+@pytest.mark.mutant("what an engine prints as it runs stands in the document")
+@pytest.mark.slow
+def test_what_an_engine_prints_is_not_in_it(new: Path) -> None:
+    words = ["run", str(new), "--engine", "pymunk.shipped", "--json", "--no-cache"]
+    done = subprocess.run(
+        [sys.executable, "-c", LOUD, *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["tolerance"]
+    assert "a banner\n" in done.stderr
+    assert "and more\n" in done.stderr
+
+
+# What goes through the floor on which its neighbours stand is told in one line, and goes on.
+
+
+HEAD = "title: What no contact names\n"
+DOMINO = """\
+scene:
+  bodies: {box: {block: {mass: 1, width: 0.1, height: 0.4}}}
+  contacts: {right: {between: [box.lower_right, ground.floor], friction: 1}MORE}
+initial: {box: {x: 0, angle: 0, on: lower_right, omega: -4}}
+allow: {box.angle: 1.0e-3}
+"""
+STACKED = """\
+scene:
+  bodies:
+    base: {block: {mass: 5, width: 1, height: 0.2}}
+    box: {block: {mass: 1, width: 0.1, height: 0.4}}
+  contacts:
+    bl: {between: [base.lower_left, ground.floor], friction: 1}
+    br: {between: [base.lower_right, ground.floor], friction: 1}
+    right: {between: [box.lower_right, base.top], friction: 1}
+initial: {base: {x: 0, angle: 0, on: [lower_left, lower_right]}, box: {x: 0, y: 0.4, angle: 0}}
+allow: {box.angle: 1.0e-3}
+"""
+SPACE = """\
+scene:
+  space: 3
+  bodies: {box: {block: {mass: 1, size: [0.2, 0.2, 0.4]}, points: {tip: [0, 0, -0.2]}}}
+  contacts: {foot: {between: [box.tip, ground.floor], friction: 9, ideal: pivot}}
+initial: {box: {x: 0, y: 0, z: 0.2, attitude: {axis: [0, 0, 1], angle: 0}, omega: [0.5, 0, 0]}}
+allow: {box.attitude: 1.0e-3}
+"""
+LENGTH = {DOMINO: 0.5, STACKED: 0.1, SPACE: 0.1}
+
+
+def told(folder: Path, text: str, more: str = "") -> list[str]:
+    case = scenes.typed(folder, text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
+    return [*through(case.scene, solve(case).trajectory)]
+
+
+@pytest.mark.parametrize(
+    ("text", "begins"),
+    [
+        (DOMINO, "box.upper_left goes 409 mm deep into the floor, which it enters by t = 0.36 s"),
+        (STACKED, "box.lower_left goes 4.45 mm deep into the top of base"),
+        (SPACE, "box.corner"),
+    ],
+)
+def test_the_deepest_point_is_told(text: str, begins: str, tmp_path: Path) -> None:
+    (warning,) = told(tmp_path, text)
+    assert warning.startswith(begins)
+    assert warning.endswith("no contact names it, so nothing holds it there")
+
+
+def test_how_deep_is_what_the_angle_says(tmp_path: Path) -> None:
+    """A domino about its right corner at φ < 0: its left upper one is h cos φ − w sin φ high."""
+    case = scenes.typed(tmp_path, DOMINO.replace("MORE", ""), tail=scenes.tail(0.5, 26))
+    motion = solve(case).trajectory
+    angle = motion.states["box"][:, 2]
+    above = 0.4 * np.cos(angle) - 0.1 * np.sin(angle)
+    (warning,) = through(case.scene, motion)
+    assert f"goes {-1e3 * min(above):.3g} mm deep" in warning
+
+
+def test_nothing_is_told_of_what_is_named(tmp_path: Path) -> None:
+    names = ("lower_left", "upper_right", "upper_left")
+    more = "".join(f", {n}: {{between: [box.{n}, ground.floor], friction: 1}}" for n in names)
+    case = DOMINO.replace("allow:", "events: {falls: {upper_right.gap: falls to zero}}\nallow:")
+    LENGTH[case] = 0.5
+    assert told(tmp_path, case, more) == []
+
+
+@pytest.mark.slow
+def test_no_shipped_case_is_warned_of() -> None:
+    for name, case in scenes.SHIPPED.items():
+        if case.scene.contacts or case.scene.pairs:
+            assert [*through(case.scene, scenes.solved(name).trajectory)] == [], name
+
+
+@pytest.fixture
+def domino(tmp_path: Path) -> Path:
+    file = tmp_path / "domino.yaml"
+    tail = scenes.tail(0.5, 26).replace("5e-05", "1e-3")
+    file.write_text(HEAD + DOMINO.replace("MORE", "") + tail, encoding="utf-8")
+    return file
+
+
+def test_check_and_python_warn_and_refuse_nothing(domino: Path) -> None:
+    done = textmech("check", domino)
+    assert done.returncode == 0
+    warning, sound = done.stdout.splitlines()
+    assert warning.startswith(f"{domino}: warning: box.upper_left goes 409 mm deep")
+    assert sound == f"{domino}: 1 case, no mistakes"
+    (file,) = json.loads(textmech("check", domino, "--json").stdout)["files"]
+    (known,) = file["warnings"]
+    assert known["case"] == "domino"
+    assert solved(str(domino)).warnings == (known["what"],)
+
+
+@pytest.mark.slow
+def test_run_warns_and_refuses_nothing(domino: Path) -> None:
+    done = textmech("run", domino, "--engine", "pymunk.shipped")
+    assert done.returncode == 0
+    assert "domino: warning: box.upper_left goes 409 mm deep" in done.stdout
+
+
+@pytest.mark.mutant("a corner that goes through the floor is told of none")
+def test_a_warning_that_is_left_out_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(unnamed, "DEEP", math.inf)
+    assert told(tmp_path, DOMINO) == []
