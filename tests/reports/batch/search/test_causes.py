@@ -8,16 +8,14 @@ from typing import Any
 
 import pytest
 from given import scenes
-from given.command import NEW, process
+from given.command import NEW, textmech
 from given.lines import ladder, row
 
 from textmech.reports.batch import suite
 from textmech.reports.batch.cache.store import Store
-from textmech.reports.batch.search.cause_rows import NOTHING
 from textmech.reports.batch.search.causes import Known
 from textmech.reports.batch.search.why import OURS, Key, Rows, key_of
 from textmech.reports.batch.selection import choose_engines
-from textmech.reports.batch.suite import Report
 from textmech.reports.data.row import (
     ANOTHER,
     BEYOND,
@@ -35,30 +33,28 @@ from textmech.reports.show.cures import carried
 # Causes of real rows: those that are known by hand, and what is said where there are none.
 
 
-CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force", "planar_bodies")
-
-
-def measured(*, causes: bool, names: tuple[str, ...] = CASES) -> Report:
-    cases = [scenes.EVERY[name] for name in names]
-    engines = choose_engines([], [])
-    return suite.measure(
-        cases, engines, jobs=2, progress=lambda *_: None, book=False, causes=causes
-    )
+CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force")
+"""`test_causes_are_current` searches them anew: what is committed of them is what is found."""
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
-    return measured(causes=True)
+def causes() -> list[Cause]:
+    return [c for c in write.read(write.HERE / "causes.csv", Cause) if c.case in CASES]
 
 
-def of(
-    report: Report, case: str, engine: str, quantity: str, setting: str = "shipped"
-) -> list[Cause]:
-    key = (case, engine, setting, quantity)
-    return [c for c in report.causes if (c.case, c.engine, c.setting, c.quantity) == key]
+@pytest.fixture(scope="module")
+def comparisons() -> list[Comparison]:
+    rows = write.read(write.HERE / "tolerance.csv", Comparison)
+    return [row for row in rows if row.case in CASES]
 
 
-@pytest.mark.slow
+def of(causes: list[Cause], *key: str) -> list[Cause]:
+    """Those of a case, an engine and a quantity, as shipped."""
+    case, engine, quantity = key
+    wanted = (case, engine, "shipped", quantity)
+    return [c for c in causes if (c.case, c.engine, c.setting, c.quantity) == wanted]
+
+
 @pytest.mark.parametrize(
     ("case", "engine", "quantity", "cures"),
     [
@@ -69,51 +65,42 @@ def of(
         ("four_bar", "mujoco", "D.gap", ["RK4 + softness of loops", "softness of loops + step"]),
         ("sliding_block.below", "mujoco", "block.x", ["impratio 1e6"]),
         ("growing_force", "pymunk", "block.x", [OURS["law"]]),
-        ("growing_force", "mujoco", "block.x", [OURS["law"], OURS["driver"]]),
-        ("planar_bodies", "pymunk", "energy.kinetic", [NOTHING]),
     ],
 )
 def test_causes_that_are_known(
-    report: Report, case: str, engine: str, quantity: str, cures: list[str]
+    causes: list[Cause], case: str, engine: str, quantity: str, cures: list[str]
 ) -> None:
-    assert [cause.cure for cause in of(report, case, engine, quantity)] == cures
+    assert [cause.cure for cause in of(causes, case, engine, quantity)] == cures
 
 
-@pytest.mark.slow
-def test_a_cure_brings_the_error_within_and_says_at_what_cost(report: Report) -> None:
-    cured = [cause for cause in report.causes if cause.error_after is not None]
+def test_a_cure_brings_the_error_within_and_says_at_what_cost(causes: list[Cause]) -> None:
+    cured = [cause for cause in causes if cause.error_after is not None]
     assert len(cured) > 20
     assert all(c.error_after <= (c.allowed or 0.0) for c in cured if c.error_after is not None)
     assert all((c.error or 0.0) > (c.allowed or 0.0) for c in cured)
-    (rk4, finer) = of(report, "bar_pendulum", "mujoco", "energy.total")
+    (rk4, finer) = of(causes, "bar_pendulum", "mujoco", "energy.total")
     assert (rk4.options, rk4.step, rk4.cost) == ("{integrator: RK4}", 2e-3, 4.0)
     assert (finer.options, finer.step, finer.cost, finer.law) == ("{}", 5e-4, 4.0, "h^1")
 
 
-@pytest.mark.slow
-def test_the_last_column_of_every_row_beyond_says_them(report: Report) -> None:
-    rows = {(r.case, r.engine, r.quantity): r for r in report.comparisons if r.verdict == BEYOND}
-    pendulum = rows["bar_pendulum", "mujoco", "energy.total"]
-    assert pendulum.because == "cured by RK4 (×4 the cost) or step 0.0005 s (×4 the cost)"
-    told = [row for row in rows.values() if "cured by" in row.because]
-    assert len(told) == len(rows)
-
-
-@pytest.mark.slow
-def test_a_declared_deviation_keeps_its_words(report: Report) -> None:
-    row = next(
-        r
-        for r in report.comparisons
-        if (r.case, r.engine, r.setting, r.realised, r.quantity)
-        == ("growing_force", "pymunk", "tuned", "native", "block.x")
-    )
-    words = "one number for friction: it breaks loose at the kinetic 3 N; cured by "
-    assert row.because == words + OURS["law"]
+def test_the_last_column_says_them_after_what_is_declared(comparisons: list[Comparison]) -> None:
+    because = {(r.case, r.engine, r.setting, r.quantity): r.because for r in comparisons
+               if r.realised == "native"}  # fmt: skip
+    pendulum = because["bar_pendulum", "mujoco", "shipped", "energy.total"]
+    assert pendulum == "cured by RK4 (×4 the cost) or step 0.0005 s (×4 the cost)"
+    assert all("cured by" in row.because for row in comparisons if row.verdict == BEYOND)
+    declared = "one number for friction: it breaks loose at the kinetic 3 N; cured by "
+    assert because["growing_force", "pymunk", "tuned", "block.x"] == declared + OURS["law"]
 
 
 @pytest.mark.slow
 def test_without_a_search_what_the_ladder_tells_stays() -> None:
-    report = measured(causes=False, names=("bar_pendulum",))
+    report = suite.measure(
+        [scenes.EVERY["bar_pendulum"]],
+        choose_engines(["mujoco.shipped"], []),
+        progress=lambda *_: None,
+        book=False,
+    )
     assert {cause.cure for cause in report.causes} == {UNSEARCHED}
     row = next(r for r in report.comparisons if r.verdict == BEYOND)
     assert row.because.startswith("the step: it falls with order 1.0")
@@ -256,18 +243,9 @@ def new(tmp_path: Path) -> Path:
 
 
 @pytest.mark.slow
-def test_causes_of_ones_own_case(new: Path) -> None:
-    done = process("causes", new, "--no-cache", folder=new.parent)
-    assert done.returncode == 0, done.stderr
-    assert "cart in pymunk.shipped" in done.stdout
-    assert "the cost" in done.stdout
-    assert [file.name for file in new.parent.iterdir()] == ["cart.yaml"]
-
-
-@pytest.mark.slow
 def test_causes_for_scripts(new: Path) -> None:
     words = (new, "--json", "--no-cache")
-    done, run = process("causes", *words), process("run", "--causes", *words)
+    done, run = textmech("causes", *words), textmech("run", "--causes", *words)
     found = json.loads(done.stdout)
     assert (found["mistakes"], found["exit_code"]) == ([], 0)
     assert {"case": "cart", "engine": "pymunk", "setting": "shipped"}.items() <= found["causes"][
@@ -279,7 +257,7 @@ def test_causes_for_scripts(new: Path) -> None:
 @pytest.mark.slow
 def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
     """The printed settings, pasted into a file, bring every row within its tolerance."""
-    done = process("advise", new, "--engine", "pymunk", "--no-cache", folder=new.parent)
+    done = textmech("advise", new, "--engine", "pymunk", "--no-cache", folder=new.parent)
     assert done.returncode == 0, done.stderr
     lines = done.stdout.splitlines()
     words = [lines[i + 1] for i, line in enumerate(lines) if "as a file of --settings" in line]
@@ -287,7 +265,7 @@ def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
     for word in words:  # the fewest changes, and the cheapest
         own = new.with_name("own.yaml")
         own.write_text(word.strip(), encoding="utf-8")
-        run = process("run", new, "--engine", "pymunk", "--settings", own, folder=new.parent)
+        run = textmech("run", new, "--engine", "pymunk", "--settings", own, folder=new.parent)
         tables = run.stdout.split("\ncart in ")
         (rows,) = [part for part in tables if part.split("\n")[0].count(" own")]
         assert rows.count(" agrees") >= 2
@@ -296,7 +274,7 @@ def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
 
 @pytest.mark.slow
 def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
-    done = process(
+    done = textmech(
         "advise", new, "--json", "--out", tmp_path / "out", "--no-cache", folder=new.parent
     )
     found = json.loads(done.stdout)
@@ -309,11 +287,10 @@ def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
     ]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "words", [(), ("bar_pendulum", "--all"), ("bar_pendulum", "--margin", "0.5")]
 )
 def test_mistaken_words_are_told(words: tuple[str, ...], tmp_path: Path) -> None:
-    done = process("advise", *words, folder=tmp_path)
+    done = textmech("advise", *words, folder=tmp_path)
     assert done.returncode == 2
     assert "Error" in done.stderr
