@@ -14,11 +14,9 @@ import pytest
 from bench.adapters import Amount
 from bench.adapters import rows as rows_of_bench
 from given import scenes
-from given.claims import CHAIN
 from given.claims import PLANE as PLANE_CLAIM
 from given.claims import claimed as claim_of
 from given.engine_space import LOPSIDED, G, hinge, rigid, simulated, spatial, state
-from given.lines import said
 
 from textmech import engines
 from textmech.cases.case import Case, Deviation
@@ -40,7 +38,6 @@ from textmech.reports.compare.trial.ladder import wanted_reactions
 from textmech.reports.compare.trial.states import SILENT, ways_of
 from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, FAILS, Comparison
 from textmech.reports.output import motion_files as keep
-from textmech.reports.output import write
 from textmech.reports.show.script import script
 
 # What an engine answers is looked at before it is believed: words on states, records, tuning.
@@ -323,14 +320,6 @@ def test_what_is_not_told_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_space_is_refused_by_an_engine_of_the_plane(tmp_path: Path) -> None:
-    found = rows(claim_of(tmp_path, CHAIN), PYMUNK)
-    assert {said(row) for row in found.values()} == {
-        "refused: engine: pymunk moves bodies in a plane, and this scene is in space"
-    }
-
-
-@pytest.mark.slow
 def test_twice_the_energy_is_beyond_fails_or_is_declared(tmp_path: Path) -> None:
     case = claim_of(tmp_path, PLANE_CLAIM, allow={"energy.kinetic": 1e-11})
     shipped = engines.make("pymunk", "shipped")
@@ -398,39 +387,6 @@ def test_what_raises_is_no_refusal_that_passes(tmp_path: Path) -> None:
 def test_nothing_of_it_can_be_shown(tmp_path: Path) -> None:
     with pytest.raises(CaseError, match="is a claim about states: nothing is run"):
         script(claim_of(tmp_path, PLANE_CLAIM), MUJOCO)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", scenes.CLAIMS)
-def test_shipped_claims(name: str) -> None:
-    case = scenes.CLAIMS[name]
-    for engine in (MUJOCO, PYMUNK):
-        found = rows(case, engine)
-        verdicts = {name: row.verdict.partition(":")[0] for name, row in found.items()}
-        assert set(verdicts.values()) <= {AGREES, DEVIATES, "refused"}
-        answered = {
-            v for name, v in verdicts.items() if name.split(".")[0] not in case.scene.forces
-        }
-        assert engine is PYMUNK or answered == {AGREES}
-
-
-@pytest.mark.slow
-def test_friction_that_an_engine_has_not_is_refused_and_the_rest_answered() -> None:
-    for engine in (MUJOCO, PYMUNK):
-        found = rows(scenes.CLAIMS["sliding_points"], engine)
-        assert found["momentum.x"].verdict == AGREES
-        assert found["pad.fx"].because.startswith("engine: ")
-
-
-@pytest.mark.slow
-def test_its_rows_can_be_written_and_read(tmp_path: Path) -> None:
-    case = claim_of(tmp_path, PLANE_CLAIM)
-    report = suite.measure([case], [MUJOCO], progress=lambda *_: None, book=False)
-    write.write(write.tables(report, [case]), tmp_path)
-    back = write.read(tmp_path / "tolerance.csv", Comparison)
-    assert {(row.quantity, row.verdict, row.step) for row in back} == {
-        (name, AGREES, None) for name in ("audit", *case.allow)
-    }
 
 
 @pytest.mark.slow

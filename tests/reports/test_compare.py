@@ -110,14 +110,6 @@ def test_a_declared_deviation_must_stay_what_it_is(
     assert found.verdict == word
 
 
-def test_an_interval_is_held_at_the_judged_step(trial: Make, moving: Case) -> None:
-    declared = {"mujoco.shipped": {"ball.x": Deviation("other law", by=(2e-2, 4e-2))}}
-    case = replace(moving, deviates=declared)
-    shipped = {"setting": "shipped", "own_step": 1e-3}
-    assert row(compare(trial(case=case, model=3e-2, **shipped))).verdict == DEVIATES
-    assert row(compare(trial(case=case, model=5e-2, **shipped))).verdict == FAILS
-
-
 def test_another_version_may_change_a_deviation(trial: Make, moving: Case) -> None:
     declared = {"mujoco.shipped": {"ball.x": Deviation("soft", limit=2.0e-2)}}
     made = trial(
@@ -155,12 +147,6 @@ def test_a_diverged_run_says_so_and_only_tuned_fails(trial: Make) -> None:
 def climbed(outcome: Outcome) -> list[float]:
     """The steps of its one ladder."""
     return [one.step for one in outcome.steps]
-
-
-def test_coarse_rungs_that_diverge_are_left_out(trial: Make) -> None:
-    outcome = compare(trial(stable=4.1e-3, order=2))
-    assert row(outcome).verdict == AGREES
-    assert climbed(outcome) == [1e-3, 2e-3, 4e-3]
 
 
 def test_nothing_coarser_than_a_diverged_rung_is_on_a_ladder(trial: Make) -> None:
@@ -234,11 +220,6 @@ def test_a_crash_fails_but_for_a_users_own_numbers(trial: Make) -> None:
     assert row(crashed(trial(setting="own"), "the process died")).verdict == "crashed"
 
 
-def test_every_row_names_case_engine_and_version(trial: Make) -> None:
-    for found in compare(trial()).rows:
-        assert (found.case, found.engine, found.version) == ("moving", "mujoco", "4.0.0")
-
-
 def test_the_reach_of_a_law_or_driver_is_asked_of_its_row(trial: Make, moving: Case) -> None:
     for way in ("law", "driver"):
         case = replace(moving, reach={f"mujoco.{way}": {"ball.x": 1e-9}})
@@ -270,12 +251,6 @@ def test_what_is_no_number_never_agrees(
     assert verdict(made, "ball.x", math.nan, SETTLED, "")[0] == word
 
 
-def test_a_declared_interval_does_not_hold_what_is_no_number(trial: Make, moving: Case) -> None:
-    declared = {"mujoco.shipped": {"ball.x": Deviation("other law", by=(2e-2, 4e-2))}}
-    made = trial(case=replace(moving, deviates=declared), **AS_SHIPPED)
-    assert verdict(made, "ball.x", math.nan, SETTLED, "")[0] == FAILS
-
-
 @pytest.mark.parametrize(("setting", "word"), [({}, FAILS), (AS_SHIPPED, DIVERGED)])
 def test_an_engine_that_answers_with_no_number_has_diverged(
     trial: Make, setting: dict[str, Any], word: str
@@ -292,7 +267,8 @@ def test_what_is_observed_of_no_number_is_none(moving: Case, name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("largest", "word"), [(1e-2, FAILS), (2e-2, DEVIATES), (4e-2, DEVIATES), (5e-2, FAILS)]
+    ("largest", "word"),
+    [(1e-2, FAILS), (2e-2, DEVIATES), (4e-2, DEVIATES), (5e-2, FAILS), (math.nan, FAILS)],
 )
 def test_an_interval_has_two_ends(trial: Make, moving: Case, largest: float, word: str) -> None:
     declared = {"mujoco.shipped": {"ball.x": Deviation("other law", by=(2e-2, 4e-2))}}

@@ -235,14 +235,6 @@ def test_a_games_step_is_taken_by_both_engines_as_it_is(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_options_without_effect_are_told_below_the_table(folder: Path) -> None:
-    settings = ("--settings", str(folder / "same.yaml"), "--settings", "shipped")
-    done = run(folder, "--engine", "pymunk", *settings)
-    assert done.exit_code == 0, done.output
-    assert "swing: pymunk.same changes nothing: every number is shipped's" in done.output
-
-
-@pytest.mark.slow
 def test_an_approximation_that_the_book_does_not_make_is_told(folder: Path) -> None:
     done = textmech("run", folder / "swing.yaml", "--engine", "book")
     assert done.returncode == 2

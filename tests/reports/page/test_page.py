@@ -304,58 +304,23 @@ def cart(tmp_path: Path) -> Path:
 
 
 @pytest.mark.slow
-def test_a_page_of_ones_own_case_comes_with_its_reports(cart: Path, tmp_path: Path) -> None:
-    before = [file.read_bytes() for file in sorted(write.HERE.glob("*.csv"))]
-    done = textmech("page", cart, folder=tmp_path)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout == "written to textmech-page/index.html\n"
-    out = tmp_path / "textmech-page"
-    assert {file.name for file in out.iterdir()} == {*write.FILES, "index.html"}
-    text = (out / "index.html").read_text(encoding="utf-8")
-    assert re.findall(r'<details class="case" id="([^"]*)">', text) == ["cart"]
-    assert "A bar that hangs on a cart" in text
-    assert [file.read_bytes() for file in sorted(write.HERE.glob("*.csv"))] == before
-
-
-@pytest.mark.slow
 def test_a_run_writes_the_page_of_its_reports(cart: Path, tmp_path: Path) -> None:
     """It is the one that `textmech page` makes of them."""
     one = ("--engine", "mujoco.tuned")
     done = textmech("run", cart, *one, "--out", "o", "--page", folder=tmp_path)
     assert done.returncode == 0, done.stderr
-    again = textmech("page", cart, *one, "--out", "p", folder=tmp_path)
+    again = textmech("page", cart, *one, folder=tmp_path)
     assert again.returncode == 0, again.stderr
+    assert again.stdout == "written to textmech-page/index.html\n"
     assert {file.name for file in (tmp_path / "o").iterdir()} == {*write.FILES, "index.html"}
     for file in (tmp_path / "o").iterdir():
-        assert file.read_bytes() == (tmp_path / "p" / file.name).read_bytes()
+        assert file.read_bytes() == (tmp_path / "textmech-page" / file.name).read_bytes()
 
 
 def test_a_run_that_writes_nothing_has_no_page(cart: Path, tmp_path: Path) -> None:
     done = textmech("run", cart, "--page", folder=tmp_path)
     assert done.returncode == 2
     assert "--page stands beside the CSV files, and needs --out" in done.stderr
-
-
-@pytest.mark.slow
-def test_ones_own_settings_are_a_column(cart: Path, tmp_path: Path) -> None:
-    (tmp_path / "mine.yaml").write_text("mujoco: {integrator: RK4}\n", encoding="utf-8")
-    words = ("page", cart, "--settings", "mine.yaml", "--settings", "shipped", "--out", "o")
-    done = textmech(*words, "--engine", "mujoco", folder=tmp_path)
-    assert done.returncode == 0, done.stderr
-    text = (tmp_path / "o" / "index.html").read_text(encoding="utf-8")
-    heads = re.findall(r'<th scope="row">(mujoco[^<]*)</th>', text)
-    assert heads == ["mujoco shipped", "mujoco mine"]
-
-
-@pytest.mark.slow
-def test_a_file_with_mistakes_is_left_out_and_told(cart: Path, tmp_path: Path) -> None:
-    (tmp_path / "bad.yaml").write_text(NEW.replace("mass: 2.0", "mass: -2"), encoding="utf-8")
-    words = ("page", cart, tmp_path / "bad.yaml", "--engine", "mujoco.tuned", "--out", "o")
-    done = textmech(*words, folder=tmp_path)
-    assert done.returncode == 2
-    assert "bad.yaml:5:" in done.stderr
-    assert "left out" in done.stderr
-    assert (tmp_path / "o" / "index.html").is_file()
 
 
 def test_where_there_are_no_reports_it_says_which_command_writes_them(
