@@ -1,10 +1,9 @@
 """Whatever is written into a case file: cases, or mistakes with a place; never a traceback."""
 
 import math
-import random
-import re
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pytest
 from given.damage import damaged, numbers
@@ -14,7 +13,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from textmech.cases.fields.number import LARGEST, SMALLEST, NumberMistake, amount
-from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError, plain
 from textmech.reports.batch.selection import HANDWRITTEN
@@ -41,29 +39,17 @@ def outcome(file: Path, content: bytes) -> str:
 
 
 @pytest.mark.slow
-def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
+@pytest.mark.parametrize("drawn", [damaged(), damaged([SPATIAL])], ids=["plane", "space"])
+def test_a_damaged_file_is_loaded_or_refused_with_places(drawn: Any, tmp_path: Path) -> None:
     seen: Counter[str] = Counter()
 
     @often
-    @given(damaged())
+    @given(drawn)
     def each(content: bytes) -> None:
         seen[outcome(tmp_path / "case.yaml", content)] += 1
 
     each()
     assert min(seen["loaded"], seen["refused"]) > N / 20  # or the damage is too small or too large
-
-
-@pytest.mark.slow
-def test_a_damaged_file_in_space_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
-    seen: Counter[str] = Counter()
-
-    @often
-    @given(damaged([SPATIAL]))
-    def each(content: bytes) -> None:
-        seen[outcome(tmp_path / "case.yaml", content)] += 1
-
-    each()
-    assert min(seen["loaded"], seen["refused"]) > N / 20
 
 
 @pytest.mark.slow
@@ -97,34 +83,3 @@ def test_nothing_that_is_shown_steers_a_terminal(text: str) -> None:
     shown = plain(text)
     assert not any(ord(c) < 32 or 127 <= ord(c) < 160 for c in shown)
     shown.encode("utf-8")
-
-
-# However a shipped case file is mangled, `load` gives cases or a CaseError.
-
-
-_JUNK = ["", "null", "[]", "{}", "-1", ".nan", "1e999", "x y", "&a 1", "*a", "!!set", "'", "0 m"]
-
-
-def mangled(text: str, chance: random.Random) -> str:
-    """The text with one to three of its tokens deleted, renamed, doubled or replaced."""
-    tokens = re.findall(r"\w+|\s+|[^\w\s]", text)
-    for _ in range(chance.randint(1, 3)):
-        i = chance.randrange(len(tokens))
-        other = chance.choice(tokens)
-        tokens[i] = chance.choice(["", tokens[i] + "x", tokens[i] * 2, other, chance.choice(_JUNK)])
-    return "".join(tokens)
-
-
-@pytest.mark.slow
-def test_mangled(tmp_path: Path) -> None:
-    chance = random.Random(1)
-    texts = [path.read_text(encoding="utf-8") for path in shipped().values()]
-    path = tmp_path / "case.yaml"
-    refused = 0
-    for _ in range(300):
-        path.write_text(mangled(chance.choice(texts), chance), encoding="utf-8")
-        try:
-            load(path, systems={"four_bar": ("m", "a", "b", "c", "d", "crank0")})
-        except CaseError as error:
-            refused += len(error.mistakes) > 0
-    assert 150 < refused < 300

@@ -11,8 +11,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from bench.adapters import Amount
-from bench.adapters import rows as rows_of_bench
 from given import scenes
 from given.claims import PLANE as PLANE_CLAIM
 from given.claims import claimed as claim_of
@@ -398,11 +396,6 @@ def test_what_is_kept_has_a_row_for_each_state(tmp_path: Path) -> None:
     assert table["state"].tolist() == [0, 1, 2, 3]
     one, other = (table[f"wheel.P.x [m] {who}"] for who in ("reference", "mujoco.tuned.native"))
     assert np.max(np.abs(one - other)) < 1e-12
-
-
-def test_it_is_no_case_for_the_bench(tmp_path: Path) -> None:
-    with pytest.raises(CaseError, match="is a claim about states: nothing is run"):
-        next(rows_of_bench(claim_of(tmp_path, PLANE_CLAIM), [MUJOCO], Amount()))
 
 
 # An engine's turns in space are counted between the samples, where these are far apart.

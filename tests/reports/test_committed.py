@@ -2,7 +2,7 @@
 
 import ast
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from given.otherwise import otherwise
 from given.tree import ROOT
 
 from textmech.cases.case import Case
-from textmech.cases.find import shipped
 from textmech.cases.load import load
 from textmech.reference.coverage import equations
 from textmech.reports.batch import suite
@@ -47,7 +46,7 @@ from textmech.reports.data.row import (
     Rungs,
 )
 from textmech.reports.output import committed, write
-from textmech.reports.output.committed import WORSE, Key
+from textmech.reports.output.committed import Key
 from textmech.reports.show import readme
 from textmech.reports.system import pool
 
@@ -310,22 +309,6 @@ def test_a_finding_that_grew_tenfold_got_worse(
     worse = committed.worse(moving, replace(row, error=1.1))
     assert worse == "1.1 is above 10 × the committed 0.1"
     assert committed.worse(moving, replace(row, error=float("nan"))) != ""
-
-
-@pytest.mark.slow
-def test_every_committed_tuned_row_has_a_bar_near_its_figure() -> None:
-    """A hundredfold loss is seen in each, whatever the case allows."""
-    cases = {case.name: case for path in shipped().values() for case in load(path)}
-    rows: Mapping[Key, Comparison] = committed.rows()
-    bars = 0
-    for key, row in rows.items():
-        if key[2] == "tuned" and row.verdict == AGREES and key[4] != "audit":
-            found = committed.before(cases[key[0]], key, row.version, row.step)
-            assert found is row
-            assert row.error is not None
-            bars += 1
-    assert bars > 250
-    assert WORSE < 30
 
 
 # Every item of the chapter has a case that covers it, a test that states it, or a reason.

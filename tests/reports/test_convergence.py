@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 from given.otherwise import otherwise
-from given.scenes import SHIPPED
 
 from textmech.cases.case import Case
 from textmech.cases.load import load
@@ -19,7 +18,7 @@ from textmech.reports.compare.judge.cause import cause
 from textmech.reports.compare.judge.compare import compare
 from textmech.reports.compare.judge.convergence import Convergence, study
 from textmech.reports.compare.trial import ladder as stepping
-from textmech.reports.compare.trial.ladder import USUAL, judged_step, ladders, wanted_reactions
+from textmech.reports.compare.trial.ladder import USUAL, judged_step, ladders
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.data.row import (
     AGREES,
@@ -408,24 +407,6 @@ def test_the_second_ladder_begins_a_rung_above_where_four_are_left(
     assert following.steps[first - second :] == held.steps
     (alone,) = ladders(made.case, made.engine, trial().plan)
     assert alone.steps == following.steps
-
-
-@pytest.mark.parametrize(
-    ("name", "asked", "given"),
-    [
-        ("tilting_disk.circle", ["touch.side", "touch.along", "touch.gap"], ["fx", "fy"]),
-        ("five_axis_robot.swinging", ["q1.force", "q1.fz", "q1.angle"], ["fx", "fy", "fz"]),
-        ("five_axis_robot.swinging", ["q4.moment"], ["mx", "my", "mz"]),
-        ("driven_robot", ["q1.torque", "hand.attitude"], ["torque"]),
-        ("robot_knife", ["blade.force", "blade.normal", "blade.slip"], ["force", "normal"]),
-        ("rhombus", ["foot.force", "diagonal.length"], ["force"]),
-    ],
-)
-def test_an_engine_is_asked_for_what_quantities_are_made_of(
-    name: str, asked: list[str], given: list[str]
-) -> None:
-    part = asked[0].partition(".")[0]
-    assert wanted_reactions(SHIPPED[name].scene, asked) == tuple(f"{part}.{f}" for f in given)
 
 
 @pytest.mark.mutant("samples of an engine's own step may be fewer than asked")

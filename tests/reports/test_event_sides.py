@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given.otherwise import otherwise
-from given.scenes import typed
+from given.scenes import scene, typed
 from scipy.optimize import brentq
 
 from textmech.cases.case import Case, Event
@@ -284,28 +284,24 @@ def test_pins_and_contacts_have_two_sides_too(
 
 # Rows at the last instant.
 
-APEX = """\
-scene:
-  bodies: {b: {particle: {mass: 1}}}
-  contacts: {c: {between: [b, ground.floor], friction: 0, restitution: 1}}
-initial: {b: {x: 0, y: 0, vx: 0.1, vy: 9.80665}}
-events: {top: {b.vy: falls to zero}, lands: {c.gap: falls to zero}}
-allow: {b.x: 1.0e-3, top.count: 0.5}
-"""
+
+def thrown_up(duration: float) -> Case:
+    changes = {"duration": duration, "samples": 31, "allow": {"tops.count": 0.5}}
+    return scene("bouncing_particle", changes, e=1, y=0, vx=0.1, vy=9.80665)
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("an event at the last instant, which has happened before, is not told")
 def test_what_comes_once_more_at_the_last_instant_is_a_mistake(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """At 1 s and 3 s it is at the top: whether twice in 3 s is rounding."""
-    case = typed(tmp_path, APEX, tail="duration: 3.0\nsamples: 31\n")
+    case = thrown_up(3.0)
     motion = solve(case).trajectory
     (mistake,) = mistaken(case, motion)
-    assert mistake.where == "events.top"
+    assert mistake.where == "events.tops"
     assert "comes at the last instant, 3 s" in mistake.what
-    later = typed(tmp_path, APEX, tail="duration: 3.1\nsamples: 31\n")
+    later = thrown_up(3.1)
     assert mistaken(later, solve(later).trajectory) == []
     monkeypatch.setattr(event_times, "AT_ONCE", np.inf)
     assert mistaken(case, motion) == []
@@ -384,31 +380,21 @@ KNOWN = Known(0.02)
 
 
 G = 9.80665
-DROP = """\
-scene:
-  bodies: {{b: {{particle: {{mass: 1.0}}}}}}
-  contacts: {{c: {{between: [b, ground.floor], friction: 0, restitution: {e}}}}}
-initial: {{b: {{x: {x}, y: 1, vx: {vx}, vy: 0}}}}
-events:
-  lands: {{c.gap: falls to zero}}
-  stays: {{c.gap: stays zero}}
-  tops: {{b.vy: falls to zero}}
-duration: {duration!r}
-samples: 11
-allow: {{b.y: 1.0e-2, {asked}}}
-"""
 
 
 def fall() -> float:
     return math.sqrt(2 / G)
 
 
-def dropped(
-    folder: Path, duration: float, asked: str, *, e: float = 0.5, x: float = 0.0, vx: float = 0.0
-) -> Case:
-    """A particle that falls 1 m at x [m], and bounces until (1 + e)/(1 - e) √(2/g)."""
-    text = DROP.format(e=e, x=x, vx=vx, duration=duration, asked=asked)
-    return typed(folder, text, tail="")
+def dropped(duration: float, *asked: str, most: float = 0.5, **parameters: float) -> Case:
+    """A particle that falls 1 m, and bounces until (1 + e)/(1 - e) √(2/g)."""
+    changes = {
+        "duration": duration,
+        "samples": 11,
+        "events": {"stays": {"touch.gap": "stays zero"}},
+        "allow": {"ball.y": 1e-2, **dict.fromkeys(asked, most)},
+    }
+    return scene("bouncing_particle", changes, **parameters)
 
 
 def counted(case: Case, found: Solution, name: str) -> int:
@@ -418,12 +404,12 @@ def counted(case: Case, found: Solution, name: str) -> int:
 
 @pytest.mark.slow
 @pytest.mark.mutant("a hop that is told by its size alone")
-def test_hops_are_counted_however_low(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hops_are_counted_however_low(monkeypatch: pytest.MonkeyPatch) -> None:
     """After n bounces it has flown (1 + 2 e (1 - eⁿ)/(1 - e)) √(2/g); the last are 1e-10 m high."""
     e, n = 0.5, 16
     ends = [(1 + 2 * e * (1 - e**k) / (1 - e)) * fall() for k in (n, n + 1)]
     within = 0.7 * ends[0] + 0.3 * ends[1]  # at its middle the hop's top would be the last instant
-    case = dropped(tmp_path, within, "lands.count: 0.5", e=e, x=1e3)
+    case = dropped(within, "lands.count", e=e, x=1e3)
     found = solve(case)
     assert found.holds
     assert mistaken(case, found.trajectory) == []
@@ -435,11 +421,11 @@ def test_hops_are_counted_however_low(tmp_path: Path, monkeypatch: pytest.Monkey
 @pytest.mark.slow
 @pytest.mark.mutant("what a pile leaves out is none of a stop's error")
 def test_a_pile_ends_no_better_known_than_what_it_leaves_out(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     end = 3 * fall()
     for x in (0.0, 1e4):
-        case = dropped(tmp_path, 3.0, "stays.time: 1.0e-3", x=x)
+        case = dropped(3.0, "stays.time", most=1e-3, x=x)
         found = solve(case)
         assert found.holds
         assert found.trajectory.record is not None
@@ -448,7 +434,7 @@ def test_a_pile_ends_no_better_known_than_what_it_leaves_out(
         (stated,) = (each for each in found.checks if each.name == "error of stays.time")
         assert stated.certified is not None
         assert 0.0 < end - time < stated.certified < 1e-5
-    finer = dropped(tmp_path, 3.0, "stays.time: 1.0e-5")
+    finer = dropped(3.0, "stays.time", most=1e-5)
     with pytest.raises(CaseError, match="asks more than can be certified"):
         solve(finer)
     monkeypatch.setattr(errors, "_piled", lambda endless: 0.0)
@@ -457,8 +443,8 @@ def test_a_pile_ends_no_better_known_than_what_it_leaves_out(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("vx", [0.0, 5e3])
-def test_apexes_are_not_counted_however_fast_it_flies(tmp_path: Path, vx: float) -> None:
-    case = dropped(tmp_path, 3.0, "tops.count: 0.5, stays.count: 0.5", e=0.7, vx=vx)
+def test_apexes_are_not_counted_however_fast_it_flies(vx: float) -> None:
+    case = dropped(3.0, "tops.count", "stays.count", e=0.7, vx=vx)
     found = mistaken(case, solve(case).trajectory)
     assert [mistake.where for mistake in found] == ["allow.tops.count"]
 

@@ -35,7 +35,6 @@ SCENE = Scene(
 )
 H = 1e-3
 W = np.sqrt(2.0)
-Rests = list[tuple[float | None, float | None]]
 
 
 def braking(t: Array, stop: float = 0.61803) -> Array:
@@ -142,12 +141,6 @@ def test_a_line_in_place_of_the_curve_would_be_seen(monkeypatch: pytest.MonkeyPa
     assert line is not None
     assert abs(curved - 1.5) < 2e-6
     assert abs(line - 1.5) > 5e-4
-
-
-def test_a_threshold_in_place_of_the_curve_would_be_seen() -> None:
-    t = grid(1.0)
-    below = t[np.argmax(braking(t) < 0.02 * 0.61803)]
-    assert abs(below - 0.61803) > 1e-2
 
 
 def test_a_corner_of_one_step_is_known_to_that_step() -> None:

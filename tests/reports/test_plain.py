@@ -8,6 +8,7 @@ import pytest
 from given.otherwise import otherwise
 from given.planning import SHIPPED, planned
 from given.scenes import SHIPPED as CASES
+from given.scenes import scene as scene_of
 from given.scenes import solved
 
 from textmech.cases.case import Case
@@ -21,17 +22,6 @@ from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import Trial
 
 G = 9.80665
-BOUNCES = """\
-title: A particle dropped from 1 m that is thrown back
-scene:
-  bodies: {ball: {particle: {mass: 2.0}}}
-  contacts: {touch: {between: [ball, ground.floor], friction: 0.5, restitution: 0.7}}
-initial: {ball: {x: 0, y: 1.0, vx: 0, vy: 0}}
-duration: 1.6
-samples: 33
-events: {bounces: {touch.gap: falls to zero}}
-allow: {ball.y: 1.0e-2}
-"""
 
 
 def told(scene: Scene, reference: Trajectory, motion: Trajectory) -> dict[str, Plain]:
@@ -64,10 +54,9 @@ def thrown(times: Array, back: float, late: float = 0.0) -> Trajectory:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("back", "late"), [(0.5, 0.0), (0.7, 2e-3), (0.0, 0.0)])
-def test_restitution(tmp_path: Path, back: float, late: float) -> None:
-    file = tmp_path / "ball.yaml"
-    file.write_text(BOUNCES, encoding="utf-8")
-    (case,) = load(file)
+def test_restitution(back: float, late: float) -> None:
+    changes = {"events": {"tops": None}, "duration": 1.6, "samples": 33}
+    case = scene_of("bouncing_particle", changes, m=2, mu=0.5, e=0.7)
     reference = solve(case).trajectory
     steps = np.linspace(0.0, 1.6, 16001)
     motion = replace(thrown(case.times, back, late), record=thrown(steps, back, late))

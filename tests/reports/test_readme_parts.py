@@ -184,13 +184,6 @@ def test_a_case_counts_by_its_worst_quantity() -> None:
     ]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("ratio", [0.4, 2.0])
-def test_another_row_is_another_picture(ratio: float) -> None:
-    assert picture([row(ratio=ratio)]) == picture([row(ratio=ratio)])
-    assert picture([row(ratio=ratio)]) != picture([row(ratio=0.1)])
-
-
 # What an adapter meets is said where it is declared: no field is without a meaning.
 
 
@@ -239,31 +232,6 @@ def test_every_noun_of_a_scene_is_there() -> None:
     exported = {getattr(scene, name) for name in scene.__all__}
     shared = {scene.Frame, Force, scene.Limit}
     assert not {kind for kind in exported if is_dataclass(kind)} - set(ALL) - shared
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "said",
-    [
-        "| `pin` | turn |",
-        "| `slot` | shift, turn |",
-        "| `hinge` | Lets the second part turn about an axis. |",
-        "| SPACE | 0 to 2: m |",
-        "| `stiffness` | `float` | N m/rad | c |",
-        "| `static` | `Bounds` | N or N m | what holds at rest, N or N m |",
-        "All stand in the plane, or all in space: `scene.frame is SPACE`",
-        "| `touching` | One contact for every point that may touch",
-        "| `pairs` | `Mapping[str, Pair]` |  | The contacts of two bodies",
-        "`step` [s] too if the engine takes one",
-        "neither the mean over a step nor what led to it",
-        "| Joint | `gap` | m | constraint drift |",
-        "| Contact | `tangent` | N | on the body, along `plane.along`: x, of the floor |",
-        "| the scene | `kinetic` | J |  |",
-        r"| `radius` | `float \| None` | m | of a disk or what else is round",
-    ],
-)
-def test_what_an_author_asks_for_is_there(said: str) -> None:
-    assert said in nouns.nouns()
 
 
 def test_every_kind_of_joint_is_there() -> None:

@@ -18,7 +18,7 @@ from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
 from textmech.reports.batch.selection import choose_cases
 from textmech.reports.page import motions, picture, poses, sketch
-from textmech.reports.page.motions import POINTS, motion, thinned
+from textmech.reports.page.motions import motion, thinned
 from textmech.reports.page.pack import (
     BASE,
     Packed,
@@ -386,10 +386,6 @@ def test_a_trail_is_of_what_the_case_observes(name: str, quantity: str) -> None:
     for found, axis in ((x, "x"), (y, "y")):
         right = observe(case.scene, trajectory, quantity + axis)
         assert found[[0, -1]] == pytest.approx(right[[0, -1]], abs=2 * LEVEL * np.ptp(found) + 1e-6)
-
-
-def test_a_long_curve_has_no_more_points_than_are_seen() -> None:
-    assert len(thinned(100_000, POINTS)) == POINTS
 
 
 # Numbers as letters: what is read back is what was meant.

@@ -27,7 +27,7 @@ from textmech.reports.batch.selection import choose_engines
 from textmech.reports.batch.tasks import Pair
 from textmech.reports.data.row import Advice
 from textmech.reports.output import write
-from textmech.reports.show.advice import advice_lines, ratio, shipped_lines, stopped_lines
+from textmech.reports.show.advice import advice_lines, shipped_lines, stopped_lines
 
 # Advice for real cases: recipes that are known by hand, and what is said where there is none.
 
@@ -137,31 +137,6 @@ def test_what_would_need_our_adapter_is_named_where_there_is_no_recipe(tmp_path:
     where = next(i for i, line in enumerate(lines) if line.startswith("  no recipe: "))
     assert lines[where + 1].strip().startswith("not tried, for it takes our adapter")
     assert lines[where + 1].endswith(": tips that reflect")
-
-
-@pytest.mark.slow
-def test_another_tolerance_asks_for_another_step() -> None:
-    """A thousandth, or a tenth, of each quantity's size, whatever the case allows."""
-    strict, loose = (
-        advice(Requirement(t, 2.0), "bar_pendulum", engines=("pymunk",))["bar_pendulum pymunk"]
-        for t in (1e-3, 1e-1)
-    )
-    assert loose.step is not None
-    assert strict.step is None or strict.step < loose.step
-    assert (strict.tolerance, loose.tolerance) == (1e-3, 1e-1)
-
-
-@pytest.mark.slow
-def test_a_finer_step_costs_more_time() -> None:
-    """Ten times as many steps: a ratio near ten, on any machine."""
-    asked = Requirement(None, 2.0)
-    engines = choose_engines(["pymunk"], ["shipped"])
-    cases = [scenes.EVERY["bar_pendulum"]]
-    with advised(cases, engines, asked, progress=lambda *_: None, jobs=2) as (one,):
-        assert one.kitchen is not None
-        measured = ratio(one.pair, one.shipped.at(1e-3), one.shipped)
-    assert measured is not None
-    assert 5 < measured < 20
 
 
 @pytest.mark.slow
