@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from given import scenes
 from given.otherwise import otherwise
+from given.scenes import cases_of, mistakes_of
 
 from textmech.cases import theme
 from textmech.cases import titled as listing
@@ -36,12 +37,12 @@ PARAMETERS = {
 }
 
 
-def cases_of(name: str) -> list[Case]:
+def shipped_cases(name: str) -> list[Case]:
     return load(*find([name]), systems=PARAMETERS)
 
 
 def test_four_bar() -> None:
-    (case,) = cases_of("four_bar")
+    (case,) = shipped_cases("four_bar")
     assert case.name == "four_bar"
     assert case.system == "four_bar"
     assert case.parameters["crank0"] == radians(70)
@@ -64,10 +65,9 @@ def test_four_bar() -> None:
     assert case.deviates["mujoco.shipped"]["crank.angle"].limit == 0.27
 
 
-def test_what_every_variant_replaces_is_read_too(tmp_path: Path) -> None:
+def test_what_every_variant_replaces_is_read_too() -> None:
     """No variant shows it; what one of them leaves as it is, is said once and as its own."""
-    path = tmp_path / "fall.yaml"
-    path.write_text(
+    told = mistakes_of(
         """title: A fall
 source: {section: "2"}
 scene: {bodies: {ball: {particle: {mass: banana}}}}
@@ -80,9 +80,7 @@ variants:
   heavy: {scene: {bodies: {ball: {particle: {mass: 2}}}}, initial: {ball: {y: 1}}}
 """
     )
-    with pytest.raises(CaseError) as caught:
-        load(path)
-    found = {(m.line, m.where): m.what for m in caught.value.mistakes}
+    found = {(m.line, m.where): m.what for m in told}
     hidden = {
         field
         for (_, field), what in found.items()
@@ -93,7 +91,7 @@ variants:
 
 
 def test_variants() -> None:
-    pushed, downhill = cases_of("rolling_wheel")
+    pushed, downhill = shipped_cases("rolling_wheel")
     assert (pushed.name, downhill.name) == ("rolling_wheel.pushed", "rolling_wheel.downhill")
     assert (pushed.parameters["F"], downhill.parameters["F"]) == (2.5, 0.0)
     assert pushed.scene.forces["hand"] == Push(
@@ -110,12 +108,12 @@ def test_variants() -> None:
 
 
 def test_forces() -> None:
-    (crank,) = cases_of("slider_crank")
+    (crank,) = shipped_cases("slider_crank")
     assert crank.system is None
     assert crank.scene.forces["motor"] == Torque(
         "motor", "crank", Signal("sine", (1.5,), 5.0, pi / 2)
     )
-    (towed,) = cases_of("towed_pendulum")
+    (towed,) = shipped_cases("towed_pendulum")
     assert towed.scene.points["hook"] == GroundPoint((0.4, 0.0), (0.3, 0.0))
     assert towed.scene.forces["wind"] == Push(
         "wind", Anchor("bob", "end"), Signal("ramp", (1.5, 0.0))
@@ -144,10 +142,8 @@ rests: true
 """
 
 
-def test_other_words(tmp_path: Path) -> None:
-    path = tmp_path / "own.yaml"
-    path.write_text(EVERYTHING)
-    (case,) = load(path)
+def test_other_words() -> None:
+    (case,) = cases_of(EVERYTHING)
     assert case.scene.gravity == (0.0, 0.0)
     assert case.scene.bodies["plate"].moment == 0.5
     assert case.scene.bodies["box"].mass == pytest.approx(0.3, rel=1e-15)
@@ -170,34 +166,28 @@ def test_other_words(tmp_path: Path) -> None:
         ("gravity: [0.3, -1.62 m/s^2]", (0.3, -1.62)),
     ],
 )
-def test_other_gravity(tmp_path: Path, words: str, gravity: tuple[float, float]) -> None:
-    path = tmp_path / "own.yaml"
-    path.write_text(EVERYTHING.replace("gravity: none", words))
-    (case,) = load(path)
+def test_other_gravity(words: str, gravity: tuple[float, float]) -> None:
+    (case,) = cases_of(EVERYTHING.replace("gravity: none", words))
     assert case.scene.gravity == pytest.approx(gravity, rel=1e-15)
 
 
-def test_a_ring_touches_with_its_rim(tmp_path: Path) -> None:
+def test_a_ring_touches_with_its_rim() -> None:
     """A rigid body with a radius rolls as a disk does, with an inertia of its own."""
-    path = tmp_path / "own.yaml"
     ring = EVERYTHING.replace("inertia: 0.5}", "inertia: 0.5, radius: 0.5}")
     touch = "  contacts: {touch: {between: [plate, ground.floor], friction: 1.0, ideal: rolling}}\n"
-    path.write_text(ring.replace("initial:", f"{touch}initial:"))
-    (case,) = load(path)
+    (case,) = cases_of(ring.replace("initial:", f"{touch}initial:"))
     assert case.scene.bodies["plate"].radius == 0.5
     assert case.scene.bodies["plate"].moment == 0.5
     assert case.scene.contacts["touch"].at == Anchor("plate", "center")
-    path.write_text(EVERYTHING.replace("initial:", f"{touch}initial:"))
-    with pytest.raises(CaseError, match="'plate' is a rigid and touches with one point"):
-        load(path)
+    (mistake,) = mistakes_of(EVERYTHING.replace("initial:", f"{touch}initial:"))
+    assert mistake.what.startswith("'plate' is a rigid and touches with one point")
 
 
-def test_a_direction_is_a_unit_vector(tmp_path: Path) -> None:
+def test_a_direction_is_a_unit_vector() -> None:
     """A groove `along: [3, 4]` is not five times as long, nor its friction five times as strong."""
-    path = tmp_path / "own.yaml"
     slide = "slide: [plate.P, box.center], along: [3, -4]"
-    path.write_text(EVERYTHING.replace("weld: [plate.P, box.center], angle: 0.5 turn", slide))
-    (case,) = load(path)
+    weld = "weld: [plate.P, box.center], angle: 0.5 turn"
+    (case,) = cases_of(EVERYTHING.replace(weld, slide))
     assert case.scene.joints["fast"].along == pytest.approx((0.6, -0.8), rel=1e-15)
 
 
@@ -253,16 +243,10 @@ reach:
 """
 
 
-def written(tmp_path: Path, text: str) -> list[Case]:
-    path = tmp_path / "own.yaml"
-    path.write_text(text)
-    return load(path)
-
-
-def test_a_variant_changes_the_friction_alone(tmp_path: Path) -> None:
+def test_a_variant_changes_the_friction_alone() -> None:
     variants = "variants:\n  rough: {scene: {contacts: {touch: {friction: 0.9}}}}\n"
     variants += "  bare: {events: {rolls: {touch.slip: leaves zero}}}\n"
-    rough, bare = written(tmp_path, BACKSPIN + variants)
+    rough, bare = cases_of(BACKSPIN + variants)
     assert rough.scene.contacts["touch"].static == 0.9
     assert rough.events == {"rolls": Event("touch.slip", "stays zero")}
     assert bare.events == {"rolls": Event("touch.slip", "leaves zero")}
@@ -276,13 +260,10 @@ def test_a_variant_changes_the_friction_alone(tmp_path: Path) -> None:
         ("friction: mu}", "friction: -1}", ["scene.contacts.touch.friction"]),
     ],
 )
-def test_a_mistaken_part_drags_nothing_along(
-    tmp_path: Path, old: str, new: str, places: list[str]
-) -> None:
+def test_a_mistaken_part_drags_nothing_along(old: str, new: str, places: list[str]) -> None:
     """Neither the bounds of a mistaken event nor the event of a mistaken contact are mistakes."""
-    with pytest.raises(CaseError) as caught:
-        written(tmp_path, BACKSPIN.replace(old, new).replace("drops_out: [m]\n", "system: any\n"))
-    assert [m.where for m in caught.value.mistakes] == places
+    text = BACKSPIN.replace(old, new).replace("drops_out: [m]\n", "system: any\n")
+    assert [m.where for m in mistakes_of(text)] == places
 
 
 def test_event_quantities() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.scenes import typed
+from given.scenes import cases_of, mistakes_of, typed
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
@@ -38,18 +38,12 @@ allow: {wheel.x: 1.0e-3}
 """
 
 
-def said(tmp_path: Path, text: str) -> list[tuple[str, str]]:
-    path = tmp_path / "corner.yaml"
-    path.write_text(text)
-    with pytest.raises(CaseError) as caught:
-        load(path)
-    return [(m.where, m.what) for m in caught.value.mistakes]
+def said(text: str) -> list[tuple[str, str]]:
+    return [(m.where, m.what) for m in mistakes_of(text)]
 
 
-def test_loads(tmp_path: Path) -> None:
-    path = tmp_path / "corner.yaml"
-    path.write_text(TEXT)
-    scene = load(path)[0].scene
+def test_loads() -> None:
+    scene = scene_of(TEXT)
     assert [contact.plane for contact in scene.contacts.values()] == [
         LEVEL,
         Plane("wall", (2.0, 0.0), (-1.0, 0.0)),
@@ -57,11 +51,9 @@ def test_loads(tmp_path: Path) -> None:
     ]
 
 
-def test_is_observed(tmp_path: Path) -> None:
+def test_is_observed() -> None:
     """n·(r − r₀) − R, u·v + R ω and its integral, with numbers worked out by hand."""
-    path = tmp_path / "corner.yaml"
-    path.write_text(TEXT)
-    scene = load(path)[0].scene
+    scene = scene_of(TEXT)
     rows = np.array([[0.0, 3.0, 0.0, 0.0, 0.0, 0.0], [1.0, 3.5, 0.2, 2.0, -1.0, 4.0]])
     motion = Trajectory(np.array([0.0, 1.0]), {"wheel": rows}, {})
     assert observe(scene, motion, "side.gap") == pytest.approx([1.5, 0.5])
@@ -72,21 +64,21 @@ def test_is_observed(tmp_path: Path) -> None:
     assert observe(scene, motion, "ramp.drift") == pytest.approx([0.0, 0.8 + 0.3 + 0.1])
 
 
-def test_an_unknown_plane(tmp_path: Path) -> None:
+def test_an_unknown_plane() -> None:
     hint = "is 'ground.wal'; did you mean 'ground.wall'?"
-    assert said(tmp_path, TEXT.replace("ground.wall]", "ground.wal]")) == [
+    assert said(TEXT.replace("ground.wall]", "ground.wal]")) == [
         ("scene.contacts.side.between.1", f"should be a plane of the ground, {hint}")
     ]
 
 
-def test_a_mistaken_plane_drags_nothing_along(tmp_path: Path) -> None:
-    assert said(tmp_path, TEXT.replace("normal: [-3, 0]", "normal: up")) == [
+def test_a_mistaken_plane_drags_nothing_along() -> None:
+    assert said(TEXT.replace("normal: [-3, 0]", "normal: up")) == [
         ("scene.planes.wall.normal", "should be a list, is text 'up'")
     ]
 
 
-def test_twice_on_one_plane(tmp_path: Path) -> None:
-    assert said(tmp_path, TEXT.replace("ground.slope]", "ground.wall]")) == [
+def test_twice_on_one_plane() -> None:
+    assert said(TEXT.replace("ground.slope]", "ground.wall]")) == [
         ("scene.contacts.ramp.between.0", "'wheel' already touches in 'side'")
     ]
 
@@ -121,14 +113,12 @@ allow: {disk.x: 1.0e-3, lies.normal: 1.0}
 """
 
 
-def scene_of(tmp_path: Path, text: str = ON_EACH_OTHER) -> Scene:
-    path = tmp_path / "pairs.yaml"
-    path.write_text(text)
-    return load(path)[0].scene
+def scene_of(text: str) -> Scene:
+    return cases_of(text)[0].scene
 
 
-def test_pairs_load(tmp_path: Path) -> None:
-    scene = scene_of(tmp_path)
+def test_pairs_load() -> None:
+    scene = scene_of(ON_EACH_OTHER)
     assert not scene.contacts
     assert list(scene.pairs.values()) == [
         Pair("rims", Anchor("other", "center"), "disk", None, 0.1, 0.1, 0.7),
@@ -154,9 +144,9 @@ def seen(scene: Scene, motion: Trajectory, *quantities: str) -> list[float]:
     return [float(observe(scene, motion, quantity)[0]) for quantity in quantities]
 
 
-def test_rims_are_observed(tmp_path: Path) -> None:
+def test_rims_are_observed() -> None:
     """Centres 5 apart along (3, 4)/5; along is (4, −3)/5: 2·0.8 + 0.2·3 + 0.5·4 and a push of 5."""
-    scene = scene_of(tmp_path)
+    scene = scene_of(ON_EACH_OTHER)
     motion = moved(disk=[1, -2, 1.0, 0, 0, 4.0], other=[4, 2, 0, 2.0, 0, 3.0])
     gap, slip = seen(scene, motion, "rims.gap", "rims.slip")
     assert gap == pytest.approx(5 - 0.7)
@@ -164,9 +154,9 @@ def test_rims_are_observed(tmp_path: Path) -> None:
     assert slip == pytest.approx(2 * 0.8 + 0.2 * 3 + 4.8 * 4)
 
 
-def test_a_side_that_turns_is_observed(tmp_path: Path) -> None:
+def test_a_side_that_turns_is_observed() -> None:
     """The box turned by 90°: its top faces −x, 1 m to the left, and along it is +y."""
-    scene = scene_of(tmp_path)
+    scene = scene_of(ON_EACH_OTHER)
     box = [0.0, 0.0, math.pi / 2, 0.0, 0.5, 2.0]
     motion = moved(disk=[-1.7, 0.3, 0, 0.4, 0.7, 6.0], box=box)
     gap, slip = seen(scene, motion, "lies.gap", "lies.slip")
@@ -180,9 +170,9 @@ def test_a_side_that_turns_is_observed(tmp_path: Path) -> None:
     assert growth == pytest.approx([-0.4 - 2 * 0.3])
 
 
-def test_faces_are_the_sides(tmp_path: Path) -> None:
+def test_faces_are_the_sides() -> None:
     """Each normal points out of the middle, and the ends lie along the side, left of it first."""
-    body = scene_of(tmp_path).bodies["box"]
+    body = scene_of(ON_EACH_OTHER).bodies["box"]
     for face in FACES.values():
         one, two = (np.array(body.points[end]) for end in face.ends)
         assert one @ face.normal == two @ face.normal > 0
@@ -190,9 +180,9 @@ def test_faces_are_the_sides(tmp_path: Path) -> None:
         np.testing.assert_allclose(way, face.along)
 
 
-def test_the_end_of_a_side_is_known(tmp_path: Path) -> None:
+def test_the_end_of_a_side_is_known() -> None:
 
-    scene = scene_of(tmp_path)
+    scene = scene_of(ON_EACH_OTHER)
     for x, beyond in ((1.9, False), (2.0, False), (2.1, True), (-2.1, True)):
         motion = moved(disk=[x, 1.5, 0, 0, 0, 0], box=[0.0] * 6)
         assert scene.pairs["lies"].beyond(motion_of(scene, motion)).tolist() == [beyond]
@@ -235,17 +225,17 @@ def test_the_end_of_a_side_is_known(tmp_path: Path) -> None:
          "is for a plane of the ground: two bodies roll, slip and part as friction says"),
     ],
 )  # fmt: skip
-def test_a_mistake_is_told(old: str, new: str, where: str, what: str, tmp_path: Path) -> None:
+def test_a_mistake_is_told(old: str, new: str, where: str, what: str) -> None:
     with pytest.raises(CaseError) as caught:
-        scene_of(tmp_path, ON_EACH_OTHER.replace(old, new))
+        scene_of(ON_EACH_OTHER.replace(old, new))
     (mistake,) = caught.value.mistakes
     assert (mistake.where, mistake.what) == (f"scene.contacts.{where}", what)
 
 
-def test_a_name_is_one_parts(tmp_path: Path) -> None:
+def test_a_name_is_one_parts() -> None:
     """A pair's too."""
     with pytest.raises(CaseError) as caught:
-        scene_of(tmp_path, ON_EACH_OTHER.replace("rims: {b", "rod: {b"))
+        scene_of(ON_EACH_OTHER.replace("rims: {b", "rod: {b"))
     assert "'rod' already names one of the bodies" in [m.what for m in caught.value.mistakes]
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from given import edges, scenes
 from given.otherwise import otherwise
+from given.scenes import cases_of
 
 from textmech.cases.case import Case
 from textmech.cases.language import resolve
-from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Anchor, Edge, Scene
 from textmech.cases.scene.observe import observe
@@ -206,12 +206,13 @@ AXLE = "  joints: {axle: {pin: [ground.O, ball.center]}}"
 THROWN = "{x: 0, y: 1, vx: 2, vy: 0}"
 
 
-def begun(folder: Path, shape: str = DISK, more: str = "", start: str = THROWN) -> dict[str, float]:
-    file = folder / "ball.yaml"
+def begun(shape: str = DISK, more: str = "", start: str = THROWN) -> dict[str, float]:
+    return dict(thrown(shape, more, start).initial["ball"].given)
+
+
+def thrown(shape: str = DISK, more: str = "", start: str = THROWN) -> Case:
     more = more.replace("ALONG", "along: [1, 0], across: 2")
-    file.write_text(BALL.format(shape=shape, more=more, start=start), encoding="utf-8")
-    (case,) = load(file)
-    return dict(case.initial["ball"].given)
+    return cases_of(BALL.format(shape=shape, more=more, start=start))[0]
 
 
 @pytest.mark.parametrize(
@@ -225,8 +226,8 @@ def begun(folder: Path, shape: str = DISK, more: str = "", start: str = THROWN) 
         f"{AXLE}\nevents: {{stops: {{axle.omega: falls to zero}}}}",
     ],
 )
-def test_it_starts_at_0_where_nothing_depends_on_it(tmp_path: Path, more: str) -> None:
-    assert begun(tmp_path, more=more)["angle"] == 0.0
+def test_it_starts_at_0_where_nothing_depends_on_it(more: str) -> None:
+    assert begun(more=more)["angle"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -248,32 +249,28 @@ def test_it_starts_at_0_where_nothing_depends_on_it(tmp_path: Path, more: str) -
         (DISK, "  forces: {d: {drag: ball.center, coefficient: 1, exponent: 1, ALONG}}"),
     ],
 )  # fmt: skip
-def test_it_is_asked_for_where_something_does(tmp_path: Path, shape: str, more: str) -> None:
-    assert "angle" not in begun(tmp_path, shape, more)
+def test_it_is_asked_for_where_something_does(shape: str, more: str) -> None:
+    assert "angle" not in begun(shape, more)
 
 
-def test_what_is_given_stays(tmp_path: Path) -> None:
-    assert begun(tmp_path, start="{x: 0, y: 1, angle: 30 deg}")["angle"] == pytest.approx(
-        0.5236, 1e-4
-    )
+def test_what_is_given_stays() -> None:
+    assert begun(start="{x: 0, y: 1, angle: 30 deg}")["angle"] == pytest.approx(0.5236, 1e-4)
 
 
 @pytest.mark.mutant("a disk's angle starts at 0 where a joint holds it")
-def test_a_joint_decides(tmp_path: Path) -> None:
+def test_a_joint_decides() -> None:
     blind = otherwise(resolve, "        *scene.joints.values(),\n", "")
-    begun(tmp_path, more="  joints: {pin: {pin: [ground.O, ball.P]}}")
-    (case,) = load(tmp_path / "ball.yaml")
+    case = thrown(more="  joints: {pin: {pin: [ground.O, ball.P]}}")
     assert "angle" not in case.initial["ball"].given
     assert "angle" in blind._turned(dict(case.initial), case.scene, {})["ball"].given
 
 
 @pytest.mark.mutant("a disk's angle starts at 0 where a spring winds by it")
-def test_what_winds_decides(tmp_path: Path) -> None:
+def test_what_winds_decides() -> None:
     blind = otherwise(resolve, "not (said or winds or driven)", "not (said or driven)")
-    begun(
-        tmp_path, more=f"{AXLE}\n  forces: {{wire: {{torsion: axle, stiffness: 1, rest_angle: 0}}}}"
+    case = thrown(
+        more=f"{AXLE}\n  forces: {{wire: {{torsion: axle, stiffness: 1, rest_angle: 0}}}}"
     )
-    (case,) = load(tmp_path / "ball.yaml")
     assert "angle" not in case.initial["ball"].given
     assert "angle" in blind._turned(dict(case.initial), case.scene, {})["ball"].given
 
@@ -302,8 +299,6 @@ allow: {{ball.x: 1.0e-3}}
         ("joints: {j: {hinge: [ground.O, ball.center], axis: [1, 0, 0]}}", True),
     ],
 )
-def test_so_does_a_sphere(tmp_path: Path, held: str, *, asked: bool) -> None:
-    file = tmp_path / "sphere.yaml"
-    file.write_text(SPHERE.format(held=held), encoding="utf-8")
-    (case,) = load(file)
+def test_so_does_a_sphere(held: str, *, asked: bool) -> None:
+    (case,) = cases_of(SPHERE.format(held=held))
     assert (case.initial["ball"].attitude is None) == asked

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from given.pendulum import pendulum
+from given.scenes import cases_of, mistakes_of
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
@@ -41,15 +42,9 @@ def variants(count: int) -> str:
     return "\n".join(["variants:", *(f"  v{i}: {{duration: 2.0}}" for i in range(count))])
 
 
-def said(folder: Path, text: str) -> list[tuple[str, str]]:
+def said(text: str) -> list[tuple[str, str]]:
     """Place and words of every mistake."""
-    file = folder / "case.yaml"
-    file.write_text(text, encoding="utf-8")
-    try:
-        load(file)
-    except CaseError as error:
-        return [(f"{m.line}:{m.column} {m.where}", m.what) for m in error.mistakes]
-    return []
+    return [(f"{m.line}:{m.column} {m.where}", m.what) for m in mistakes_of(text)]
 
 
 @pytest.mark.slow
@@ -69,15 +64,14 @@ def said(folder: Path, text: str) -> list[tuple[str, str]]:
     ],
 )  # fmt: skip
 def test_endless_work_is_said_with_its_number_and_the_way_on(
-    tmp_path: Path, text: str, place: str, number: str
+    text: str, place: str, number: str
 ) -> None:
-    (mistake,) = [m for m in said(tmp_path, text) if "limit" in m[1]]
+    (mistake,) = [m for m in said(text) if "limit" in m[1]]
     assert mistake[0] == place
     assert number in mistake[1]
     assert "--allow-long" in mistake[1]
-    file = tmp_path / "case.yaml"
     if "samples" not in place:  # these do not fit the step either
-        (first, *_) = load(file, long=True)
+        (first, *_) = cases_of(text, long=True)
         assert first.long
 
 
@@ -119,10 +113,10 @@ def states(bars: int) -> str:
 
 
 @pytest.mark.parametrize("text", [FREE, DRIVEN], ids=["set off", "driven"])
-def test_what_spins_on_a_blade_is_counted(tmp_path: Path, text: str) -> None:
+def test_what_spins_on_a_blade_is_counted(text: str) -> None:
     """Free it would only turn, which costs nothing; on a blade each turn is a swing."""
-    assert said(tmp_path, text.replace("OMEGA", "50.0")) == []
-    (mistake,) = said(tmp_path, text.replace("OMEGA", "1.0e+6"))
+    assert said(text.replace("OMEGA", "50.0")) == []
+    (mistake,) = said(text.replace("OMEGA", "1.0e+6"))
     assert "swings at 1e+06 rad/s, 4e+05 rad in all, which take about 2.5 hours" in mistake[1]
 
 
@@ -134,10 +128,8 @@ def test_what_spins_on_a_blade_is_counted(tmp_path: Path, text: str) -> None:
         (states(30), "10000 states of 30 bodies take about"),
     ],
 )
-def test_samples_and_states_cost_what_their_laws_cost(
-    tmp_path: Path, text: str, words: str
-) -> None:
-    assert any(words in what for _, what in said(tmp_path, text))
+def test_samples_and_states_cost_what_their_laws_cost(text: str, words: str) -> None:
+    assert any(words in what for _, what in said(text))
 
 
 @pytest.mark.slow
@@ -150,9 +142,9 @@ def test_samples_and_states_cost_what_their_laws_cost(
         (pendulum(duration=1e4, samples=101, step=1e-2), "duration"),
     ],
 )
-def test_what_is_said_to_be_the_bound_is_one(tmp_path: Path, text: str, key: str) -> None:
+def test_what_is_said_to_be_the_bound_is_one(text: str, key: str) -> None:
     """Two digits of it are allowed, and a tenth more is not."""
-    (what,) = [what for _, what in said(tmp_path, text) if "limit" in what]
+    (what,) = [what for _, what in said(text) if "limit" in what]
     (number,) = re.findall(r"minutes, or (?:a duration of )?([\d.e+]+)", what)
     most = float(number)
 
@@ -160,7 +152,7 @@ def test_what_is_said_to_be_the_bound_is_one(tmp_path: Path, text: str, key: str
         told = f"{key}: {round(value) if key == 'samples' else value}"
         again = re.sub(rf"^{key}: .*$", told, text, flags=re.MULTILINE)
         assert again != text
-        return any("limit" in what for _, what in said(tmp_path, again))
+        return any("limit" in what for _, what in said(again))
 
     assert not limited(most)
     assert limited(1.1 * most)
@@ -168,17 +160,17 @@ def test_what_is_said_to_be_the_bound_is_one(tmp_path: Path, text: str, key: str
 
 @pytest.mark.slow
 @pytest.mark.mutant("bodies that nothing joins cost as much as a chain of them")
-def test_islands_cost_what_each_costs(tmp_path: Path) -> None:
+def test_islands_cost_what_each_costs() -> None:
     """100 pendulums are 100 times one; what is looked at together by an event is one."""
     many = hung(100)
-    alone = [what for _, what in said(tmp_path, many)]
+    alone = [what for _, what in said(many)]
     assert alone == []
     samples = many.replace("samples: 26", "samples: 2601")
-    (what,) = [what for _, what in said(tmp_path, samples) if "limit" in what]
+    (what,) = [what for _, what in said(samples) if "limit" in what]
     assert "2601 samples of 100 bodies, at most 1 of which hang together" in what
     assert "or 780 samples" in what
     event = samples + "\nevents: {low: {b0.omega: falls to zero}}"
-    (what,) = [what for _, what in said(tmp_path, event) if "limit" in what]
+    (what,) = [what for _, what in said(event) if "limit" in what]
     assert "2601 samples of 100 bodies, 260100 rows" in what
 
 
@@ -193,16 +185,16 @@ def test_islands_cost_what_each_costs(tmp_path: Path) -> None:
         chain(100),
     ],
 )
-def test_what_takes_minutes_is_not_said(tmp_path: Path, text: str) -> None:
-    assert said(tmp_path, text) == []
+def test_what_takes_minutes_is_not_said(text: str) -> None:
+    assert said(text) == []
 
 
-def test_a_stiff_spring_between_light_jointed_links_is_no_fast_swing(tmp_path: Path) -> None:
+def test_a_stiff_spring_between_light_jointed_links_is_no_fast_swing() -> None:
     """At the pin the light link moves the heavy bar: alone it would swing at 2e6 rad/s."""
     text = pendulum(forces=SPRING.replace("1.0e12", "1.0e6").replace("rod.end", "link.end"))
     text = text.replace("bodies: {", "bodies: {link: {bar: {mass: 1.0e-6, length: 0.1}}, ")
     text = text.replace("joints: {", "joints: {pin: {pin: [rod.end, link.start]}, ")
-    assert said(tmp_path, text) == []
+    assert said(text) == []
 
 
 @pytest.mark.slow
@@ -244,21 +236,21 @@ allow: {b.y: 1.0e-3}
 """
 
 
-def test_what_only_slides_does_not_swing(tmp_path: Path) -> None:
+def test_what_only_slides_does_not_swing() -> None:
     """At 80 m/s, which are no rad/s; a pin that is driven so fast makes 7,600 turns."""
-    assert said(tmp_path, TRAIN) == []
+    assert said(TRAIN) == []
     turns = TRAIN.replace(
         "slide: [ground.O, train.center], along: [1, 0]", "pin: [ground.O, b.end]"
     )
     turns = turns.replace("train: {particle: {mass: 4.0e+5}}", "b: {bar: {mass: 1, length: 1}}")
     turns = turns.replace("rail.speed: 80.0", "rail.omega: 80.0").replace("train", "b")
     turns = turns.replace("{x: 0}", "{angle: 0}")
-    (mistake,) = said(tmp_path, turns)
+    (mistake,) = said(turns)
     assert "scene.drive.rail.omega swings at 80 rad/s" in mistake[1]
 
 
-def test_a_drag_is_as_quick_as_what_it_drags(tmp_path: Path) -> None:
+def test_a_drag_is_as_quick_as_what_it_drags() -> None:
     """Its terminal speed is 0.021 m/s, at which it is a thousandth of what it is at 1 m/s."""
-    assert said(tmp_path, DUST.replace("SPEED", "0")) == []
-    (mistake,) = said(tmp_path, DUST.replace("SPEED", "-3.0"))
+    assert said(DUST.replace("SPEED", "0")) == []
+    (mistake,) = said(DUST.replace("SPEED", "-3.0"))
     assert "scene.forces.air swings at" in mistake[1]

@@ -12,12 +12,11 @@ from given import scenes
 from given.command import textmech
 from given.lines import said
 from given.otherwise import otherwise
-from given.scenes import typed
+from given.scenes import cases_of, typed
 
 from textmech import engines
 from textmech.cases.case import Case, Deviation, Event
 from textmech.cases.fields.signal import Signal
-from textmech.cases.load import load
 from textmech.cases.scene import Body, Scene
 from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.engines import pymunk
@@ -542,12 +541,9 @@ allow: {{ball.y: 1.0e-2, ball.vy: 1.0e-2}}
 """
 
 
-def thrown(folder: Path, height: float, duration: float = 1.0) -> Case:
+def thrown(height: float, duration: float = 1.0) -> Case:
     """A case of the disk from a height [m] of its centre."""
-    file = folder / f"ball_{height:.6f}.yaml".replace(".", "_", 1)
-    file.write_text(BALL.format(height=height, duration=duration), encoding="utf-8")
-    (case,) = load(file)
-    return case
+    return cases_of(BALL.format(height=height, duration=duration))[0]
 
 
 def trial(case: Case, engine: str = "pymunk") -> Trial:
@@ -563,29 +559,29 @@ def rows_of(case: Case) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("part", [0.02, 0.3, 0.55, 0.98])
-def test_the_worst_start_is_nearly_the_bound(tmp_path: Path, part: float) -> None:
+def test_the_worst_start_is_nearly_the_bound(part: float) -> None:
     """(1 + e) v h, whatever part of a step is left when it strikes; a quarter less at most.
 
     It strikes that part of a step after the 40th, and pymunk sees it at a step's end.
     """
-    row = rows_of(thrown(tmp_path, 0.1 + SPEED * OWN_STEP * (40 + part)))["ball.y"]
+    row = rows_of(thrown(0.1 + SPEED * OWN_STEP * (40 + part)))["ball.y"]
     bound = (1 + BACK) * SPEED * OWN_STEP
     assert 0.75 * bound - 1e-9 <= row.error <= bound + 1e-9
     assert "the worst of 4 starts within a step" in row.protocol
 
 
 @pytest.mark.mutant("one start within a step is taken for all")
-def test_the_luck_of_one_start_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    lucky = thrown(tmp_path, 0.1 + SPEED * OWN_STEP * 40.999)  # strikes just before a step's end
+def test_the_luck_of_one_start_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    lucky = thrown(0.1 + SPEED * OWN_STEP * 40.999)  # strikes just before a step's end
     assert rows_of(lucky)["ball.y"].verdict == "beyond"
     monkeypatch.setattr(phases, "PARTS", ())
     assert rows_of(lucky)["ball.y"].error < 1e-3
     assert rows_of(lucky)["ball.y"].verdict == "agrees"
 
 
-def test_each_start_is_the_same_motion_later(tmp_path: Path) -> None:
+def test_each_start_is_the_same_motion_later() -> None:
     """Against the closed form; and what does not strike has one start."""
-    case = thrown(tmp_path, 0.5)
+    case = thrown(0.5)
     made = list(phases.begun_later(trial(case), OWN_STEP))
     assert [one.case.late for one in made] == pytest.approx([2.5e-3, 5e-3, 7.5e-3])
     for one in made:
@@ -598,11 +594,11 @@ def test_each_start_is_the_same_motion_later(tmp_path: Path) -> None:
 
 
 @pytest.mark.mutant("beside an impact a sample is compared with one side alone")
-def test_a_sample_on_an_impact_is_compared_with_both_sides(tmp_path: Path) -> None:
+def test_a_sample_on_an_impact_is_compared_with_both_sides() -> None:
     """It strikes at 0.4 s, which is a sample, and pymunk is before it there: 3 m/s apart."""
-    row = rows_of(thrown(tmp_path, 0.1 + SPEED * 0.4))["ball.vy"]
+    row = rows_of(thrown(0.1 + SPEED * 0.4))["ball.vy"]
     assert row.error == pytest.approx(0.0, abs=1e-12)
-    made, near = trial(thrown(tmp_path, 0.1 + SPEED * 0.4)), 0.4
+    made, near = trial(thrown(0.1 + SPEED * 0.4)), 0.4
     k = int(np.argmin(np.abs(made.case.times - near)))
     late = made.wanted("ball.vy").copy()
     late[k], late[k + 1] = -SPEED, -SPEED
@@ -613,8 +609,8 @@ def test_a_sample_on_an_impact_is_compared_with_both_sides(tmp_path: Path) -> No
     assert one_sided.fair(made, "ball.vy", late, OWN_STEP)[k] == -SPEED
 
 
-def test_what_is_farther_off_than_both_sides_is_told(tmp_path: Path) -> None:
-    made = trial(thrown(tmp_path, 0.1 + SPEED * 0.4))
+def test_what_is_farther_off_than_both_sides_is_told() -> None:
+    made = trial(thrown(0.1 + SPEED * 0.4))
     k = int(np.argmin(np.abs(made.case.times - 0.4)))
     off = made.wanted("ball.vy").copy()
     off[k] = -SPEED - 0.25
@@ -641,8 +637,8 @@ def test_a_law_in_time_is_moved_with_the_start(law: Signal) -> None:
     assert moved.at(times) == pytest.approx(law.at(times + by), abs=1e-13)
 
 
-def test_the_motion_of_other_times_is_the_certified_one(tmp_path: Path) -> None:
-    case = thrown(tmp_path, 0.5)
+def test_the_motion_of_other_times_is_the_certified_one() -> None:
+    case = thrown(0.5)
     motion, other = solve(case).trajectory, motion_of(case)(np.union1d(case.times, [0.123, 0.4567]))
     rows = np.searchsorted(other.times, case.times)
     assert other.states["ball"][rows] == pytest.approx(motion.states["ball"], abs=1e-13)
@@ -650,9 +646,9 @@ def test_the_motion_of_other_times_is_the_certified_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.mutant("a sample on an impact is told by nothing")
-def test_a_sample_on_an_impact_is_told(tmp_path: Path) -> None:
+def test_a_sample_on_an_impact_is_told() -> None:
     """It strikes at 0.4 s, which is the eleventh sample of 26 and none of 24."""
-    case = thrown(tmp_path, 0.1 + SPEED * 0.4)
+    case = thrown(0.1 + SPEED * 0.4)
     (what,) = unintended.unintended(case, solve(case).trajectory)
     assert what.startswith("the sample at 0.4 s falls on an impact")
     others = replace(case, samples=24)

@@ -3,15 +3,14 @@
 import re
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from given.otherwise import otherwise
+from given.scenes import cases_of
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.reports.compare.judge import compare as comparing
 from textmech.reports.compare.judge import convergence
 from textmech.reports.compare.judge.cause import cause
@@ -341,11 +340,8 @@ allow: {ball.y: 1.0e-2}
 """
 
 
-def written(folder: Path, step: str) -> Case:
-    file = folder / "ball.yaml"
-    file.write_text(TEXT + step, encoding="utf-8")
-    (case,) = load(file)
-    return case
+def written(step: str) -> Case:
+    return cases_of(TEXT + step)[0]
 
 
 @pytest.mark.parametrize(
@@ -359,9 +355,9 @@ def written(folder: Path, step: str) -> Case:
     ],
 )
 def test_one_number_or_by_engine_or_none(
-    tmp_path: Path, trial: Make, step: str, mujoco: float, pymunk: float
+    trial: Make, step: str, mujoco: float, pymunk: float
 ) -> None:
-    case = written(tmp_path, step)
+    case = written(step)
     for name, wanted in (("mujoco", mujoco), ("pymunk", pymunk)):
         assert judged_step(case, trial(name=name).engine) == pytest.approx(wanted, rel=1e-12)
 

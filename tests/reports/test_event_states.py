@@ -3,17 +3,15 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from given.scenes import scene
+from given.scenes import cases_of, scene
 
 from textmech.cases.case import Case
 from textmech.cases.fields.event import Event
-from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.quantity import SIDES, AtEvent, Side, at_event
@@ -319,12 +317,10 @@ BEHIND = 0.596, 0.4 + S, 0.32 + 0.6 * S - S**2 / 2 + 10 * S**3
 @pytest.mark.mutant("a quantity at an event read from a curve through both sides of a corner")
 @pytest.mark.parametrize(("slow", "t", "x"), [BEFORE, BEHIND], ids=["before", "behind"])
 def test_a_state_at_an_event_beside_a_corner_is_read_from_its_side(
-    slow: float, t: float, x: float, tmp_path: Path
+    slow: float, t: float, x: float
 ) -> None:
     """v = 1 − t until 0.4 s, and 0.605 at 0.395 s; v = 0.6 − s + 30 s² behind it."""
-    path = tmp_path / "turned.yaml"
-    path.write_text(TURNED.replace("0.605", repr(slow)))
-    (case,) = load(path)
+    (case,) = cases_of(TURNED.replace("0.605", repr(slow)))
     record, at = solve(case).trajectory.record, at_event("slow.ball.x", case.events)
     assert record is not None
     assert at is not None
@@ -350,11 +346,9 @@ TOP = 4.42869**2 / 2 / 9.80665
 @pytest.mark.parametrize("samples", [4, 10, 31])  # with 31 a sample is 1 ms from the top
 @pytest.mark.parametrize("below", [1e-6, 1e-8, 1e-10, 0.0, -1e-10, -1e-8])
 def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
-    below: float, samples: int, tmp_path: Path
+    below: float, samples: int
 ) -> None:
-    path = tmp_path / "flight.yaml"
-    path.write_text(FLIGHT.format(height=TOP - below, samples=samples))
-    (case,) = load(path)
+    (case,) = cases_of(FLIGHT.format(height=TOP - below, samples=samples))
     motion = solve(case).trajectory
     assert motion.record is not None
     found = reference_events(case.scene, motion.record, case.events["up"])
@@ -371,12 +365,10 @@ def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
 
 
 @pytest.mark.mutant("what touches the value of an event is none, without a word")
-def test_a_graze_that_is_not_said_is_certified(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_graze_that_is_not_said_is_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reading, "touches", lambda *_: iter(()))
     with pytest.raises(AssertionError):
-        test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10, tmp_path)
+        test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10)
 
 
 PUSHED = """\
@@ -400,11 +392,9 @@ PULSE = "forces: {p: {push: b.center, pulse: {amplitude: [-1, 0], from: 0.25, un
 TABLE = "drive: {r.speed: {table: {times: [0, 0.5, 1, 1.5, 2], values: [1, 0, 0, 1, -1]}}}"
 
 
-def pushed(tmp_path: Path, acts: str, speed: str, rule: str, samples: int = 21) -> Any:
-    path = tmp_path / "pushed.yaml"
+def pushed(acts: str, speed: str, rule: str, samples: int = 21) -> Any:
     text = PUSHED.format(acts=acts, speed=speed, rule=rule, samples=samples)
-    path.write_text(text.replace(", speed: none", ""), encoding="utf-8")
-    (case,) = load(path)
+    (case,) = cases_of(text.replace(", speed: none", ""))
     return case, solve(case).trajectory
 
 
@@ -423,19 +413,19 @@ def pushed(tmp_path: Path, acts: str, speed: str, rule: str, samples: int = 21) 
     ],
 )
 def test_what_a_law_sets_off_or_stops_is_an_event(
-    acts: str, speed: str, rule: str, times: list[float], samples: int, tmp_path: Path
+    acts: str, speed: str, rule: str, times: list[float], samples: int
 ) -> None:
-    case, motion = pushed(tmp_path, acts, speed, rule, samples)
+    case, motion = pushed(acts, speed, rule, samples)
     found = reference_events(case.scene, motion.record, case.events["it"])
     assert found.tolist() == pytest.approx(times, abs=1e-12)
     assert mistaken(case, motion) == []
 
 
 @pytest.mark.slow
-def test_what_comes_at_the_last_instant_is_said_to(tmp_path: Path) -> None:
+def test_what_comes_at_the_last_instant_is_said_to() -> None:
     """v = 1 − t/2; and a ball that lands at 1 s: by h = v t + g t²/2."""
     slows = "forces: {p: {push: b.center, constant: [-0.5, 0]}}"
-    (mistake,) = mistaken(*pushed(tmp_path, slows, "1", "falls to zero"))
+    (mistake,) = mistaken(*pushed(slows, "1", "falls to zero"))
     assert mistake.what.startswith("comes at the last instant, 2 s: whether it still happens")
     changes = {"events": {"tops": None}, "allow": {"lands.time": 1e-3}}
     case = scene("bouncing_particle", changes, y=5.903325, vx=1, vy=-1)

@@ -1,18 +1,16 @@
 """Plain numbers: of motions known in closed form, and of some that are known from engines."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from given.otherwise import otherwise
 from given.planning import SHIPPED, planned
 from given.scenes import SHIPPED as CASES
+from given.scenes import cases_of, solved
 from given.scenes import scene as scene_of
-from given.scenes import solved
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import ANGLE, VX, VY, Array, Trajectory, X, Y
 from textmech.reference.solve import solve
@@ -82,11 +80,9 @@ allow: {ball.y: 2.0e-3}
 """
 
 
-def sprung(folder: Path) -> float:
+def sprung() -> float:
     """The restitution that is read of an engine that has the reference's motion, by 0.1 ms."""
-    file = folder / "sprung.yaml"
-    file.write_text(SPRUNG, encoding="utf-8")
-    (case,) = load(file)
+    (case,) = cases_of(SPRUNG)
     finely = replace(case, samples=5001)
     reference, record = solve(case).trajectory, solve(finely).trajectory
     found = told(case.scene, reference, replace(reference, record=record))
@@ -94,15 +90,15 @@ def sprung(folder: Path) -> float:
 
 
 @pytest.mark.slow
-def test_what_pulls_after_a_blow_is_no_restitution(tmp_path: Path) -> None:
-    assert sprung(tmp_path) == pytest.approx(0.3, abs=3e-3)  # a step of 0.1 ms by 20 m/s²
+def test_what_pulls_after_a_blow_is_no_restitution() -> None:
+    assert sprung() == pytest.approx(0.3, abs=3e-3)  # a step of 0.1 ms by 20 m/s²
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("the fastest way back, long after the blow, read as its restitution")
-def test_the_fastest_way_back_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_fastest_way_back_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(figures, "_besides", lambda *given: -100.0)
-    assert sprung(tmp_path) > 0.6
+    assert sprung() > 0.6
 
 
 def test_energy_lost(moving: Case) -> None:

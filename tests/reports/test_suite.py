@@ -6,15 +6,14 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 from given.lines import row
+from given.scenes import cases_of
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine, Realised
 from textmech.reference.solve import Solution
@@ -163,7 +162,7 @@ def test_a_reference_that_is_not_certified_judges_nothing(
 
 @pytest.mark.slow
 def test_nor_does_it_judge_events(
-    trial: Make, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A ball that turns at 0.5 s: its time is a row of its own."""
     text = "\n".join(moving.source.lines)
@@ -171,9 +170,7 @@ def test_nor_does_it_judge_events(
     events = "events: {turns: {ball.vx: falls to zero}}\n"
     text = text.replace("initial:", f"{forces}initial:").replace("allow: {", f"{events}allow: {{")
     text = text.replace("allow: {", "allow: {turns.time: 1.0e-3, turns.count: 0.5, ")
-    file = tmp_path / "turning.yaml"
-    file.write_text(f"{text}\n", encoding="utf-8")
-    (turning,) = load(file)
+    (turning,) = cases_of(f"{text}\n", "turning")
     engine = trial(stops=(0.5,)).engine
     assert {row.verdict for row in measure([turning], [engine]).certificates} == {"holds"}
     monkeypatch.setattr("textmech.reference.certificate.laws.LAW", -1.0)

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from given.scenes import cases_of, mistakes_of
 from given.spatial_case import SOUND
 from given.spatial_motions import turn
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
-from textmech.cases.mistake import CaseError
 from textmech.cases.scene import (
     STANDARD_GRAVITY,
     Anchor,
@@ -30,15 +29,13 @@ from textmech.cases.scene.rotation import matrix
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def case_of(tmp_path: Path, text: str) -> Case:
-    path = tmp_path / "own.yaml"
-    path.write_text(text, encoding="utf-8")
-    (case,) = load(path)
+def case_of(text: str) -> Case:
+    (case,) = cases_of(text)
     return case
 
 
-def scene_of(tmp_path: Path, text: str = SOUND) -> Scene:
-    return case_of(tmp_path, text).scene
+def scene_of(text: str = SOUND) -> Scene:
+    return case_of(text).scene
 
 
 @pytest.mark.parametrize(
@@ -51,16 +48,16 @@ def scene_of(tmp_path: Path, text: str = SOUND) -> Scene:
         ("gravity: [0.1, -0.2, -1.62 m/s^2]", (0.1, -0.2, -1.62)),
     ],
 )
-def test_gravity(tmp_path: Path, words: str, gravity: tuple[float, float, float]) -> None:
-    scene = scene_of(tmp_path, SOUND.replace("incline: phi0", words))
+def test_gravity(words: str, gravity: tuple[float, float, float]) -> None:
+    scene = scene_of(SOUND.replace("incline: phi0", words))
     assert scene.gravity == pytest.approx(gravity, rel=1e-15)
 
 
-def test_contacts_forces_and_drives(tmp_path: Path) -> None:
-    scene = scene_of(tmp_path)
+def test_contacts_forces_and_drives() -> None:
+    scene = scene_of()
     at = Anchor("globe", "center")
     assert scene.contacts == {"touch": spatial_contact("touch", at, 0.5, rim=False)}
-    on_rim = scene_of(tmp_path, SOUND.replace("[globe, ground", "[wheel, ground"))
+    on_rim = scene_of(SOUND.replace("[globe, ground", "[wheel, ground"))
     assert on_rim.contacts["touch"].rim
     assert scene.forces["hand"] == Push("hand", Anchor("wheel", "center"), Signal("constant", X))
     spin = Signal("sine", (0.0, 0.0, 1.0), pytest.approx(2 * pi / 3))  # type: ignore[arg-type]
@@ -73,17 +70,15 @@ def test_contacts_forces_and_drives(tmp_path: Path) -> None:
         "upright": {"theta_torque": ("N m", "force")},
         "q1": {"torque": ("N m", "force")},
     }
-    shifted = scene_of(tmp_path, SOUND.replace("upright.theta_dot: w", "rail.shift_dot: {ramp: 3}"))
+    shifted = scene_of(SOUND.replace("upright.theta_dot: w", "rail.shift_dot: {ramp: 3}"))
     assert shifted.drives["rail.shift_dot"] == Signal("ramp", (3.0,))
     assert table(shifted)["rail.shift_force"].unit == "N"
     assert "upright.theta_torque" not in table(shifted)
 
 
-def test_each_turn_of_an_attitude_is_about_the_axes_that_those_before_it_leave(
-    tmp_path: Path,
-) -> None:
+def test_each_turn_of_an_attitude_is_about_the_axes_that_those_before_it_leave() -> None:
     """About the ground's z, and then about the x that has turned with it."""
-    found = case_of(tmp_path, SOUND).initial["top"].attitude
+    found = case_of(SOUND).initial["top"].attitude
     assert found is not None
     about_x = turn([cos(0.1), sin(0.1), 0.0], radians(30))
     expected = about_x @ turn(Z, 0.1)
@@ -98,18 +93,13 @@ TABLE = Path(__file__).with_name("mistakes.txt").read_text(encoding="utf-8")
 EACH = re.findall(r"^- (.*)\n\+ (.*)\n(\d+:\d+): ([^:]*): (.*)$", TABLE, flags=re.MULTILINE)
 
 
-def mistakes(tmp_path: Path, text: str) -> list[tuple[str, str, str]]:
-    path = tmp_path / "case.yaml"
-    path.write_text(text, encoding="utf-8")
-    try:
-        load(path, engines=ENGINES)
-    except CaseError as error:
-        return [(f"{m.line}:{m.column}", m.where, m.what) for m in error.mistakes]
-    return []
+def mistakes(text: str) -> list[tuple[str, str, str]]:
+    told = mistakes_of(text, engines=ENGINES)
+    return [(f"{m.line}:{m.column}", m.where, m.what) for m in told]
 
 
-def test_sound(tmp_path: Path) -> None:
-    assert mistakes(tmp_path, SOUND) == []
+def test_sound() -> None:
+    assert mistakes(SOUND) == []
 
 
 def test_table_is_read_whole() -> None:
@@ -117,31 +107,31 @@ def test_table_is_read_whole() -> None:
 
 
 @pytest.mark.parametrize(("old", "new", "place", "field", "what"), EACH)
-def test_each(tmp_path: Path, old: str, new: str, place: str, field: str, what: str) -> None:
+def test_each(old: str, new: str, place: str, field: str, what: str) -> None:
     assert SOUND.count(old) == 1
     text = SOUND.replace(old, new.replace(r"\n", "\n"))
-    assert mistakes(tmp_path, text) == [(place, field, what)]
+    assert mistakes(text) == [(place, field, what)]
 
 
 @pytest.mark.parametrize("free", [False, True])
-def test_a_mistaken_parameter_is_named_once(tmp_path: Path, free: bool) -> None:
+def test_a_mistaken_parameter_is_named_once(free: bool) -> None:
     """What it spoils is neither judged nor computed with: lengths, tensors and axes."""
     text = SOUND.replace("along: [0, 3, 4]", "along: [0, 3, J]").replace("J: 0.05", "J: 0.05 q")
     text = text.replace("l: 0.8 m", "l: 0.8 q").replace("{slide: [1, 0, 0]}", "{slide: [1, J, 0]}")
     if free:  # the bar hangs on its spring alone
         text = text.replace("bar.start]", "box.center]")
         text = text.replace("universal: [bar.end, box", "universal: [box.center, top")
-    assert [where for _, where, _ in mistakes(tmp_path, text)] == ["parameters.l", "parameters.J"]
+    assert [where for _, where, _ in mistakes(text)] == ["parameters.l", "parameters.J"]
 
 
-def test_all_at_once(tmp_path: Path) -> None:
+def test_all_at_once() -> None:
     """A broken part hides no other, and drags nothing along: q1's own quantities are not named."""
     text = SOUND.replace("axis: [0, 0, 2]", "axis: [0, 0]")
     text = text.replace("touch.slip: unknown", "touch.slp: unknown")
     text = text.replace("constant: [1.0, 0, 0]", "constant: [1.0]")
     text = text.replace("slide: [ground.O, bob.center]", "slide: [ground.O, bobb.center]")
     text = text.replace("y: 0, z: 0.25", "yy: 0, z: 0.25 kg")
-    assert [(where, what) for _, where, what in mistakes(tmp_path, text)] == [
+    assert [(where, what) for _, where, what in mistakes(text)] == [
         ("scene.joints.q1.axis", "should be a list of 3, has 2"),
         ("scene.joints.rail.slide.1", "unknown body 'bobb'; did you mean 'bob'?"),
         ("scene.forces.hand.constant", "should be a list of 3, has 1"),
@@ -172,14 +162,9 @@ BAR = "{bar: {mass: 1.0, length: 0.5}, points: {side: [0.1, 0.2, 0], on: [0.1, 0
 THIN = "{rigid: {mass: 1.0, inertia: [0.5, 0.5, 1.0, -0.5, 0, 0]}, points: {P: [0.1, 0.1, 0]}}"
 
 
-def said(tmp_path: Path, body: str, joints: str) -> list[str]:
-    path = tmp_path / "case.yaml"
-    path.write_text(TEXT.format(body=body, joints=joints), encoding="utf-8")
-    try:
-        load(path)
-    except CaseError as error:
-        return [f"{m.line} {m.where}: {m.what}" for m in error.mistakes]
-    return []
+def said(body: str, joints: str) -> list[str]:
+    text = TEXT.format(body=body, joints=joints)
+    return [f"{m.line} {m.where}: {m.what}" for m in mistakes_of(text)]
 
 
 @pytest.mark.parametrize(
@@ -196,8 +181,8 @@ def said(tmp_path: Path, body: str, joints: str) -> list[str]:
         (THIN, "a: {ball: [ground.O, rod.P]}"),
     ],
 )
-def test_turns_freely(tmp_path: Path, body: str, joints: str) -> None:
-    (mistake,) = said(tmp_path, body, joints)
+def test_turns_freely(body: str, joints: str) -> None:
+    (mistake,) = said(body, joints)
     assert mistake.startswith("6 scene.bodies.rod: ")
     bar = "'rod' is a slender bar: nothing keeps it from turning about its own axis, and it has "
     bar += "no inertia about that; give it as a `rigid` with a tensor"
@@ -217,8 +202,8 @@ def test_turns_freely(tmp_path: Path, body: str, joints: str) -> None:
         "a: {freedoms: {x: {slide: [0, 0, 1]}, t: {hinge: [0, 1, 0]}}, of: [ground.O, rod.start]}",
     ],
 )
-def test_held_or_with_inertia(tmp_path: Path, joints: str) -> None:
-    assert said(tmp_path, BAR, joints) == []
+def test_held_or_with_inertia(joints: str) -> None:
+    assert said(BAR, joints) == []
 
 
 # What asks for endless work in space is said when the file is read, as in the plane.
@@ -242,15 +227,10 @@ allow: {{q.angle: 1.0e-2}}
 """
 
 
-def limits_said(tmp_path: Path, **changed: object) -> list[str]:
+def limits_said(**changed: object) -> list[str]:
     given = {"length": 0.5, "forces": "", "drive": "", "omega": 1, "spin": "[0, 0, 1]"}
-    path = tmp_path / "case.yaml"
-    path.write_text(ON_A_HINGE.format(**given | {"samples": 26} | changed), encoding="utf-8")
-    try:
-        load(path)
-    except CaseError as error:
-        return [f"{m.where}: {m.what}" for m in error.mistakes if "limit" in m.what]
-    return []
+    text = ON_A_HINGE.format(**given | {"samples": 26} | changed)
+    return [f"{m.where}: {m.what}" for m in mistakes_of(text) if "limit" in m.what]
 
 
 @pytest.mark.parametrize(
@@ -272,14 +252,12 @@ def limits_said(tmp_path: Path, **changed: object) -> list[str]:
         ({"samples": 200_000}, "samples: 200000 samples of 2 bodies, at most 1 of which hang"),
     ],
 )
-def test_endless_work_is_said_with_its_number(
-    tmp_path: Path, changed: dict[str, object], words: str
-) -> None:
-    (mistake,) = limits_said(tmp_path, **changed)
+def test_endless_work_is_said_with_its_number(changed: dict[str, object], words: str) -> None:
+    (mistake,) = limits_said(**changed)
     assert words in mistake
     assert "--allow-long" in mistake
 
 
-def test_what_takes_minutes_is_not_said(tmp_path: Path) -> None:
-    assert limits_said(tmp_path) == []
-    assert limits_said(tmp_path, omega=1e2, spin="[0, 0, 1.0e2]", drive="q.omega: {ramp: 10}") == []
+def test_what_takes_minutes_is_not_said() -> None:
+    assert limits_said() == []
+    assert limits_said(omega=1e2, spin="[0, 0, 1.0e2]", drive="q.omega: {ramp: 10}") == []

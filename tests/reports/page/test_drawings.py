@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from given import scenes
 from given.otherwise import otherwise
-from given.scenes import SHIPPED
+from given.scenes import SHIPPED, cases_of
 
 from textmech import engines
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.cases.scene.motion import Motion as Looked
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
@@ -52,11 +51,8 @@ allow: {box.x: 1 mm}
 
 
 @pytest.fixture(scope="module")
-def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
-    file = tmp_path_factory.mktemp("drawn") / "drawn.yaml"
-    file.write_text(TEXT, encoding="utf-8")
-    (found,) = load(file)
-    return found
+def case() -> Case:
+    return cases_of(TEXT)[0]
 
 
 def extents(case: Case, module: Any = sketch) -> list[float]:
@@ -209,11 +205,8 @@ allow: {rod.y: 1 mm}
 
 
 @pytest.fixture(scope="module")
-def sliding(tmp_path_factory: pytest.TempPathFactory) -> Case:
-    file = tmp_path_factory.mktemp("drawn") / "drawn.yaml"
-    file.write_text(ON_A_SLIDE, encoding="utf-8")
-    (found,) = load(file)
-    return found
+def sliding() -> Case:
+    return cases_of(ON_A_SLIDE)[0]
 
 
 @pytest.mark.mutant("a bar is drawn to its centre")
