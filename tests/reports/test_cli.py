@@ -72,37 +72,6 @@ def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -
 
 
 @pytest.mark.slow
-def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> None:
-    done = textmech(
-        "run", new, "--engine", "mujoco.tuned", "--out", "o", "--keep", "k", folder=tmp_path
-    )
-    assert done.returncode == 0, done.stderr
-    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
-        "causes.csv",
-        "convergence.csv",
-        "coverage.csv",
-        "events.csv",
-        "reference.csv",
-        "runs.csv",
-        "steps.csv",
-        "tolerance.csv",
-    ]
-    head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
-    assert head.split(",") == [
-        "t [s]",
-        "cart.x [m] reference",
-        "cart.x [m] mujoco.tuned.native",
-        "rod.angle [rad] reference",
-        "rod.angle [rad] mujoco.tuned.native",
-        *(f"{pose} reference" for pose in ("cart.y [m]", "cart.angle [rad]", "rod.x [m]")),
-        "rod.y [m] reference",
-    ]
-    assert len(rows) == 6
-    events = (tmp_path / "k" / "cart.events.csv").read_text()
-    assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
-
-
-@pytest.mark.slow
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     new.write_text(f"{NEW}reach: {{mujoco: {{rod.angle: 1.0e-13}}}}\n", encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -242,7 +211,7 @@ def test_bad_settings_are_exit_code_2(new: Path, text: str, message: str) -> Non
 
 @pytest.mark.slow
 def test_list_names_every_case_with_its_source() -> None:
-    done = process("list")
+    done = textmech("list")
     assert done.returncode == 0
     book, _, asked = done.stdout.partition("What people ask")
     assert "four_bar\n" in book
@@ -431,33 +400,25 @@ def document(*words: object) -> dict[str, Any]:
 
 
 @pytest.mark.slow
-def test_a_run_tells_all_its_rows(new: Path, tmp_path: Path) -> None:
-    found = document("run", new, "--engine", "mujoco.tuned", "--out", tmp_path / "o")
-    assert list(found) == [
-        "summary",
-        "tolerance",
-        "convergence",
-        "steps",
-        "events",
-        "reference",
-        "causes",
-        "warnings",
-        "mistakes",
-        "written",
-        "exit_code",
-    ]
+def test_a_run_tells_all_its_rows_and_writes_where_it_is_told(new: Path, tmp_path: Path) -> None:
+    places = ("--out", tmp_path / "o", "--keep", tmp_path / "k")
+    found = document("run", new, "--engine", "mujoco.tuned", *places)
+    tables = "summary tolerance convergence steps events reference causes"
+    assert list(found) == f"{tables} warnings mistakes written exit_code".split()
     assert [row["quantity"] for row in found["tolerance"]] == ["audit", "cart.x", "rod.angle"]
-    assert found["summary"] == [
-        {
-            "case": "cart",
-            "setting": "mujoco.tuned",
-            "worst": "agrees",
-            "agrees": "tuned 8 ms",
-            "cured": "",
-        }
-    ]
+    line = {"case": "cart", "setting": "mujoco.tuned", "worst": "agrees", "agrees": "tuned 8 ms"}
+    assert found["summary"] == [{**line, "cured": ""}]
     assert found["written"] == str(tmp_path / "o")
     assert {row["verdict"] for row in found["reference"]} == {"holds"}
+    assert {file.name for file in (tmp_path / "o").iterdir()} == set(write.FILES)
+    head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
+    both = [f"{q} {who}" for q in ("cart.x [m]", "rod.angle [rad]")
+            for who in ("reference", "mujoco.tuned.native")]  # fmt: skip
+    others = [f"{pose} reference" for pose in ("cart.y [m]", "cart.angle [rad]", "rod.x [m]")]
+    assert head.split(",") == ["t [s]", *both, *others, "rod.y [m] reference"]
+    assert len(rows) == 6
+    events = (tmp_path / "k" / "cart.events.csv").read_text()
+    assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
 
 
 @pytest.mark.parametrize("command", ["run", "check"])
