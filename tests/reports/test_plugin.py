@@ -55,7 +55,7 @@ def test_other_projects_may_have_an_engine_option(project: pytest.Pytester) -> N
 
 @pytest.mark.slow
 def test_a_named_file_is_compared(project: pytest.Pytester) -> None:
-    done = project.runpytest_subprocess("swing.yaml", "-v", "--textmech-engine", "mujoco.tuned")
+    done = inner(project, "swing.yaml", "-v", "--textmech-engine", "mujoco.tuned")
     done.assert_outcomes(passed=3)  # the reference, the audit, the angle
     done.stdout.fnmatch_lines(["swing.yaml::swing-mujoco.tuned-rod.angle PASSED*"])
 
@@ -272,10 +272,9 @@ def test_it_takes_a_time_limit(project: pytest.Pytester) -> None:
     project.makepyfile(
         "from textmech.reports.system.limit import limit\ndef test_own(): assert limit() == 2.5"
     )
-    done = project.runpytest_subprocess("--textmech-time-limit", "2.5")
-    done.assert_outcomes(passed=1)
+    inner(project, "--textmech-time-limit", "2.5").assert_outcomes(passed=1)
     for word in ("0", "nan", "soon"):
-        done = project.runpytest_subprocess("--textmech-time-limit", word)
+        done = inner(project, "--textmech-time-limit", word)
         assert done.ret == pytest.ExitCode.USAGE_ERROR
         done.stderr.fnmatch_lines([f"*should be a time in s above 0, is '{word}'*"])
 
