@@ -221,7 +221,6 @@ def test_number(text: object, unit: str, value: float) -> None:
 
 # Case files with contacts that open, slide and stick, with dry friction, and with events.
 
-
 BACKSPIN = """\
 title: Disk thrown up an incline with backspin slides, then rolls
 source: {equations: ["2.16", "2.23", "2.34", "2.87"]}

@@ -24,7 +24,6 @@ from textmech.reference.certificate import agreement
 
 # Falls through zero within a smooth piece: on a row, between rows, and not where it trembles.
 
-
 STILL = 1e-9
 
 
@@ -153,7 +152,6 @@ def test_a_curve_through_a_kink_is_seen(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 # How far attitudes are apart: a quaternion and its opposite are one attitude, everywhere.
-
 
 AXIS = np.array([0.36, -0.48, 0.8])
 ANGLES = np.array([0.0, 1e-12, 1e-6, 0.3, 2.0, 3.1])

@@ -21,7 +21,6 @@ from textmech.reference.start.assembly import start_poses
 
 # Planes of the ground: what a file makes of them, and what it can get wrong about them.
 
-
 TEXT = """\
 title: A disk in a corner
 scene:
@@ -91,7 +90,6 @@ def test_the_tangent_has_the_normal_to_its_left() -> None:
 
 
 # Contacts of two bodies: what a file makes of them, how they are observed, what can be wrong.
-
 
 ON_EACH_OTHER = """\
 title: A disk and a block on each other
@@ -240,7 +238,6 @@ def test_a_name_is_one_parts() -> None:
 
 
 # Spokes and their tips: where they are, what they may do, and how a start stands on one.
-
 
 L, J = 0.3, 0.09
 SCENE = """\

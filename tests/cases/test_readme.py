@@ -54,7 +54,6 @@ from textmech.cases.scene.quantity import event_quantities, table
 
 # cases/README.md says what the grammar and the table of quantities say, but for space.
 
-
 WHOLE = Path(find.__file__).with_name("README.md").read_text(encoding="utf-8")
 PLANE, _, _rest = WHOLE.partition("## Space\n")
 SPACE, _, _rest = _rest.partition("## Variants\n")
@@ -125,7 +124,6 @@ def test_units() -> None:
 
 
 # cases/README.md says of space what its grammar and its table of quantities say.
-
 
 GROUND_O, BODY_POINT = Anchor("ground", "O"), Anchor("body", "point")
 

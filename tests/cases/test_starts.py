@@ -128,7 +128,6 @@ allow: {c.y: 1.0e-2}
 
 # Starts by a distance and a direction from a point of the ground.
 
-
 HELD = """\
 scene:
   gravity: none
@@ -187,7 +186,6 @@ def test_it_starts_there(tmp_path: Path) -> None:
 
 
 # A homogeneous disk looks alike however it is turned: an angle that is not given is 0.
-
 
 BALL = """\
 title: A ball thrown off a table

@@ -40,7 +40,6 @@ from textmech.reports.show.script import script
 
 # What an engine answers is looked at before it is believed: words on states, records, tuning.
 
-
 DISK = shape.disk(name="ball", mass=2.0, radius=0.1, points={})
 SCENE = Scene((0.0, 0.0), {}, {"ball": DISK}, {}, {}, {})
 N = 5
@@ -230,7 +229,6 @@ def test_who_is_asked_for_his_pace_costs_nobody_anything(monkeypatch: pytest.Mon
 
 # What an engine is asked for, so that every force of a row can be told.
 
-
 DRIVEN = spatial(
     [rigid("rod", 1.3, LOPSIDED, {"end": (0.2, 0.1, 0.0)})],
     [hinge("q1", "ground.O", "rod.end", (0.0, 0.0, 1.0))],
@@ -286,7 +284,6 @@ def test_what_is_asked_for_is_enough(name: str) -> None:
 
 
 # Rows of claims about states: native, without a step or an order, and refused in words.
-
 
 MUJOCO, PYMUNK = (engines.make(name, "tuned") for name in ("mujoco", "pymunk"))
 
@@ -399,7 +396,6 @@ def test_what_is_kept_has_a_row_for_each_state(tmp_path: Path) -> None:
 
 
 # An engine's turns in space are counted between the samples, where these are far apart.
-
 
 TURNING = """\
 title: A body that turns evenly

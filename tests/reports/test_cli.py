@@ -317,7 +317,6 @@ def test_a_file_whose_check_breaks_down_costs_only_itself(
 
 # What `textmech run` ends with: a README promises a code for each, and for two at once.
 
-
 RUN = importlib.import_module("textmech.reports.command.run")
 MISTAKE = Mistake("bad.yaml", 1, 1, "title", "missing key 'title'")
 
@@ -513,7 +512,6 @@ def test_what_an_engine_prints_is_not_in_it(new: Path) -> None:
 
 
 # What goes through the floor on which its neighbours stand is told in one line, and goes on.
-
 
 HEAD = "title: What no contact names\n"
 DOMINO = """\

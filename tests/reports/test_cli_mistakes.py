@@ -235,7 +235,6 @@ def test_a_scene_that_is_not_its_systems_is_told_by_every_command(tmp_path: Path
 
 # What a disk, a terminal or a file name can do to a run: a message, and never a traceback.
 
-
 ONE = ("--engine", "mujoco.shipped")
 
 

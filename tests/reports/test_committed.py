@@ -52,7 +52,6 @@ from textmech.reports.system import pool
 
 # The committed reports are what the suite measures now, and the READMEs show them.
 
-
 QUARTER = 0.25  # what another compiler or processor may change of a number above the floor
 AFTER_EVENTS = 2 / 3  # a factor of three: which step sees an event first may change
 LOST = 10  # times the committed error, which is the next power of ten: another machine may pass it
@@ -221,7 +220,6 @@ def near(now: float | None, before: float | None, floor: float, spread: float = 
 
 # What was committed is not lost: tuned rows have a bar near it, and none gets worse unnoticed.
 
-
 Make = Callable[..., Trial]
 KEY: Key = ("moving", "mujoco", "tuned", "native", "ball.x")
 NOTHING = Comparison(**{field.name: None for field in fields(Comparison)})  # type: ignore[arg-type]
@@ -313,7 +311,6 @@ def test_a_finding_that_grew_tenfold_got_worse(
 
 # Every item of the chapter has a case that covers it, a test that states it, or a reason.
 
-
 # Items that nobody covers yet. One that is covered must be struck off here.
 PICTURES = ("a photograph of ", "a sketch of ")
 FILE = re.compile(r"tests/[\w/]+\.py")
@@ -386,7 +383,6 @@ def test_every_item_of_the_chapter_has_a_row() -> None:
 
 
 # Whose rows may fail: what somebody has promised, and not what is only asked.
-
 
 BROKEN = replace(
     typed_row("tuned", 1.35),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given.lines import row as typed_row
 from given.lines import said
 
 from textmech.cases.case import Case, Deviation
@@ -47,7 +48,6 @@ from textmech.reports.data.row import (
 )
 
 # Verdicts of trials whose errors are known in advance.
-
 
 Make = Callable[..., Trial]
 
@@ -236,7 +236,6 @@ def test_beside_a_law_stands_a_native_row_or_its_refusal(trial: Make, moving: Ca
 
 
 # Verdicts asked by themselves: no number, one end of an interval, a limit nobody is sure of.
-
 
 AS_SHIPPED = {"setting": "shipped", "own_step": 1e-3}
 SETTLED = Convergence(TEXTBOOK, {1e-3: 1.0}, None)
@@ -470,13 +469,9 @@ def test_the_audit_reads_dry_friction_back() -> None:
 
 # The last column: an instant and what is declared stay, and the causes follow.
 
-
-OFF = Comparison(
-    case="b", theme="pins", source="", engine="mujoco", version="4.0.0", setting="shipped",
-    realised="native",
-    protocol="", quantity="x", unit="m", step=2e-3, error=9.0, when=0.0, rms=1.0, final=1.0,
-    allowed=1.0, ratio=9.0, verdict=BEYOND, because="the ladder's words",
-)  # fmt: skip
+OFF = typed_row(
+    ratio=9.0, case="b", quantity="x", error=9.0, allowed=1.0, because="the ladder's words"
+)
 CAUSE = Cause("b", "mujoco", "shipped", "x", 9.0, 1.0, "RK4", "{}", 2e-3, 0.5, 4.0, "")
 STEP = replace(CAUSE, cure="RK4 + step", step=5e-4, cost=16.0)
 NAME = ("b", "mujoco", "shipped", "x")

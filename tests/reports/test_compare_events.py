@@ -45,7 +45,6 @@ from textmech.reports.data.row import AGREES, BEYOND, DEVIATES, FAILS, INSTANTS,
 
 # Verdicts about events: their times, their counts, and what lies beside them.
 
-
 Make = Callable[..., Trial]
 STOPS = (0.3, 0.7)  # s: the reference's
 
@@ -211,7 +210,6 @@ def test_a_missing_event_is_the_engines_only_if_its_step_would_tell(
 
 
 # Events of an engine that are small beside its motion, or too soon for its step, or rests.
-
 
 GROWS = """\
 scene:
@@ -475,7 +473,6 @@ def test_what_lands_in_the_last_step_has_landed(tmp_path: Path) -> None:
 
 # What is read at once after an impact that an engine spreads: its row says how to read it.
 
-
 ROPE = """\
 scene:
   points: {O: [0, 0]}
@@ -524,7 +521,6 @@ def test_it_is_the_cure(tmp_path: Path) -> None:
 
 
 # What strikes is judged over the phase of the step, and beside an impact from both sides.
-
 
 SPEED, BACK, OWN_STEP = 2.0, 0.5, 1e-2  # m/s, –, s
 BALL = """\

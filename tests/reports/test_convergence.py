@@ -35,7 +35,6 @@ from textmech.reports.show import script as showing
 
 # Ladders with known expansions: order, limit, verdict and usable step come out as put in.
 
-
 T = np.linspace(0.0, 1.0, 26)
 REFERENCE = np.sin(T)
 STEPS = [1e-3 * 2**k for k in range(5)]
@@ -326,7 +325,6 @@ def test_three_steps_are_too_few_for_sizes_alone(sizes: list[float]) -> None:
 
 
 # Which steps are judged and climbed, whatever the case says of them.
-
 
 Make = Callable[..., Trial]
 TEXT = """\

@@ -26,7 +26,6 @@ from textmech.reports.compare.events.times import Known, engine_events, referenc
 
 # From which side a quantity comes to zero: two rules of one quantity share no instant.
 
-
 FALLS: Rule = "falls to zero"
 RISES: Rule = "rises to zero"
 STAYS: Rule = "stays zero"
@@ -309,7 +308,6 @@ def test_what_comes_once_more_at_the_last_instant_is_a_mistake(
 
 # All shipped cases, and random ones.
 
-
 MIRRORED = """\
 scene:
   points: {{O: [0, 0]}}
@@ -377,7 +375,6 @@ KNOWN = Known(0.02)
 
 
 # Events that pile up, or are smaller than what counts as zero: their counts and their times.
-
 
 G = 9.80665
 

@@ -29,7 +29,6 @@ from textmech.reports.compare.events.times import (
 
 # Event times of synthetic records whose events are known in advance.
 
-
 SCENE = Scene(
     (0.0, 0.0), {}, {"box": Body("box", "particle", 1.0, (), {"center": (0.0, 0.0)})}, {}, {}, {}
 )
@@ -388,7 +387,6 @@ def test_an_engine_is_read_by_the_same_names() -> None:
 
 # A rest that noise interrupts: what only trembles at its threshold is one rest.
 
-
 STOP = 0.61803  # s, from as many m/s
 
 
@@ -405,7 +403,6 @@ def test_what_only_trembles_at_the_threshold_rests_once(monkeypatch: pytest.Monk
 
 
 # A ball that comes to rest bounces ever lower: what of that an engine has to tell.
-
 
 SETTLES = """\
 title: A ball that comes to rest

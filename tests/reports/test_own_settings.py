@@ -197,7 +197,6 @@ def test_a_setting_whose_file_is_not_named_is_asked_for(
 
 # Own settings through the command, in the engines themselves.
 
-
 GAME = "mujoco: {step: 0.016666666666666666}\npymunk: {step: 0.016666666666666666}\n"
 
 

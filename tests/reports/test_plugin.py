@@ -281,7 +281,6 @@ def test_it_takes_a_time_limit(project: pytest.Pytester) -> None:
 
 # What must be red in pytest: a reference, an audit, and a row that got worse.
 
-
 # `spawn` would lose what a conftest changed: the workers of these runs are forks.
 WORSE = """\
 import multiprocessing
@@ -311,7 +310,6 @@ def test_a_row_that_got_worse_is_red(project: pytest.Pytester, verdict: str, red
 
 
 # The plug-in where a file has mistakes, or asks for endless work.
-
 
 ONLY = ("--textmech-engine", "mujoco.tuned")
 
@@ -347,7 +345,6 @@ def test_the_settings_of_the_ini_file_may_be_of_another_engine(pytester: pytest.
 
 
 # What a row is in pytest: passed, failed, or a failure that was expected.
-
 
 PASSED, FAILED, EXPECTED = "passed", "failed", "xfailed"
 

@@ -24,7 +24,6 @@ from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled, relea
 
 # What is generated in the READMEs: each part has one place, and says what its table says.
 
-
 PART = Part("README.md", "one", lambda: "new\n")
 TEXT = "before\n<!-- one: of a table -->\nold\n<!-- /one -->\nafter\n"
 
@@ -185,7 +184,6 @@ def test_a_case_counts_by_its_worst_quantity() -> None:
 
 
 # What an adapter meets is said where it is declared: no field is without a meaning.
-
 
 ALL = [kind for kinds in nouns.PARTS.values() for kind in kinds]
 

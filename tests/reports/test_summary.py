@@ -169,7 +169,6 @@ def test_all_quantities_agree_up_to_the_smallest_of_their_steps() -> None:
 
 # Tables for a terminal of 80 columns and for a page.
 
-
 LONG = "RK4 with the connects' softness: 8h, hard, or a step of 0.125 ms"
 LINES = [
     Line("four_bar", "mujoco.shipped", "A.force ×220", "tuned 1.6 ms", LONG),
@@ -216,23 +215,7 @@ def test_a_page_names_a_case_once() -> None:
     ]
 
 
-# What a run shows of its references on the terminal.
-
-
-def test_what_a_reference_is_certified_to_is_told(capsys: pytest.CaptureFixture[str]) -> None:
-    angle = "error of rod.angle"
-    row = Certificate("swing", "", "generated", angle, 3e-10, 0.01, 3e-12, "rad", "holds")
-    law = Certificate("swing", "", "generated", "power balance", 1e-16, 1e-12, None, "", "holds")
-    report = Report(certificates=[law, row])
-    terminal.show(report, detailed=True, written=None)
-    said = "swing: the reference is certified: rod.angle to 3e-12 rad\n"
-    assert said in capsys.readouterr().out
-    terminal.show(report, detailed=False, written=None)
-    assert said not in capsys.readouterr().out
-
-
 # The rows of a run on a terminal of 80 columns.
-
 
 LONG_REASON = (
     "does not vanish with the step: 0.346 stay; "
@@ -289,22 +272,22 @@ def test_nothing_is_wider_than_a_terminal() -> None:
     assert LONG_REASON.split() == " ".join(lines[2:5]).split()
 
 
-def test_what_a_reference_is_certified_to() -> None:
+def test_what_a_reference_is_certified_to(capsys: pytest.CaptureFixture[str]) -> None:
     angle = "error of rod.angle"
     certified = Certificate("swing", "", "generated", angle, 3e-10, 0.01, 3e-12, "rad", "holds")
     law = Certificate("swing", "", "generated", "power balance", 1e-16, 1e-12, None, "", "holds")
     assert list(certificate_lines([law])) == []
     said = "swing: the reference is certified: rod.angle to 3e-12 rad"
     assert list(certificate_lines([law, certified])) == ["", said]
+    for detailed in (True, False):
+        terminal.show(Report(certificates=[law, certified]), detailed=detailed, written=None)
+        assert (said in capsys.readouterr().out) == detailed
     assert max(map(len, certificate_lines([certified] * 9))) <= 80
     broken = replace(law, verdict=FAILS)
-    assert (
-        list(certificate_lines([broken, certified])) == []
-    )  # of one that does not hold nothing is known
+    assert [*certificate_lines([broken, certified])] == []  # nothing is known of what breaks
 
 
 # Cures from the report of causes: joined by row, and of a user's own case none.
-
 
 HEAD = "case,engine,setting,quantity,error,allowed,cure,options,step,error_after,cost,law\n"
 ROWS = """\

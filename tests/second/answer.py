@@ -61,7 +61,6 @@ def observed(motion: Motion, name: str) -> Array:
 
 # Events: when a quantity crosses a value, stays zero or leaves it, and what is there.
 
-
 FINE = 12  # readings of a quantity between two samples
 ZERO = 1e-9  # of its largest value: what is left of a zero
 

@@ -22,7 +22,6 @@ from textmech.reports.compare.events.times import reference_events
 
 # What the reference answers, for comparison: the only file here that imports textmech.
 
-
 FILES = [Path(path) for path in shipped().values()]
 EVERY = scenes.EVERY
 """Every shipped case, as the suite reads it: which of them a test asks for is no answer."""
@@ -83,7 +82,6 @@ def beside(answer: Answer, name: str) -> list[float]:
 
 
 # How large a motion is, and how far two answers lie apart in parts of that.
-
 
 LITTLE = 1e-3
 """A quantity that is nearly zero in truth (a gap, a slip, a momentum that is kept) is a difference

@@ -13,7 +13,6 @@ from second.moving import Array, Length, Vector, along, cross, dot, fixed, size,
 
 # Contacts: the gap of each point that may touch, and its slip, as lengths with their rows.
 
-
 UP = np.array([0.0, 0.0, 1.0])
 SIDES = {"top": (0, 1), "bottom": (0, -1), "left": (-1, 0), "right": (1, 0)}
 
@@ -163,7 +162,6 @@ def track(c: Contact, now: Any) -> Array:
 
 
 # Sites: where something opens and closes, or sticks and slides, with the rows of both.
-
 
 AHEAD = 1e-6  # m: feet that pass each other are level there, but for rounding
 

@@ -7,7 +7,6 @@ import numpy as np
 
 # Random words for random scenes: numbers in all their forms, laws in time, directions.
 
-
 UNITS = {
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
     "kg": {"kg": 1.0, "g": 1e-3},

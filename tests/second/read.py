@@ -11,7 +11,6 @@ from ruamel.yaml import YAML
 
 # Numbers with units become floats in SI: a table of its own, after the README's list.
 
-
 PREFIXES = {
     "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "d": 1e-1,
     "h": 1e2, "k": 1e3, "M": 1e6, "G": 1e9,
@@ -57,7 +56,6 @@ def number(told: object, parameters: Mapping[str, float]) -> float:
 
 
 # A case file becomes plain dictionaries, one for each variant, with all its numbers in SI.
-
 
 WORDS = {
     "title", "source", "system", "between", "on", "only", "ideal", "ahead_of", "pin",

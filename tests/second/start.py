@@ -12,7 +12,6 @@ from second.moving import Array
 
 # The rates at the start: those given, those that follow from them, and all others zero.
 
-
 SPEEDS = ("vx", "vy", "vz")
 RANK = 1e-9  # below that a rate follows from those before it
 
@@ -101,7 +100,6 @@ def on(model: Any, part: str, says: dict[str, Any]) -> list[Any]:
 
 
 # The start: places by Newton's method from what the file gives.
-
 
 PLACES = ("x", "y", "z")
 SAME = 1e-11  # to which Newton goes on

@@ -14,7 +14,6 @@ from second.moving import Array
 
 # Modes: which sites are open, stick or slide, what holds then, and which mode is consistent.
 
-
 CLOSE = 1e-8  # m, m/s: a gap and a rate that are none (what an event leaves of them is 1e-12)
 TINY = 1e-7  # of the largest force: what rounding leaves of none
 OPEN, STICK, FREE = "open", "stick", "free"
@@ -138,7 +137,6 @@ def chosen(sites: list[Site], now: Any, but: dict[str, list[str]]) -> Mode:
 
 
 # A motion that switches: followed from event to event, with blows between.
-
 
 FAR = 1.0  # m: a foot that is not ahead strikes nothing
 SLOW = 1e-6  # m/s: what strikes slower stays

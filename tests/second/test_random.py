@@ -18,7 +18,6 @@ from second.test_shipped import disagree
 
 # Random scenes of every smooth word, typed to a file: both read it and move the same.
 
-
 MOVES = 1e-3  # of its size, and 1e-6 in SI: a quantity that moves less is left out of a claim
 EARLY = 2e-8  # s, 1e-7 of what a scene lasts: by so much may the time of an event differ
 READ = ("x", "y", "z", "vx", "vy", "vz", "speed", "angle", "omega", "shift")
@@ -99,7 +98,6 @@ def test_a_random_scene_that_switches_moves_the_same(seed: int, tmp_path: Path) 
 
 
 # Claims about states: what follows from places, rates and accelerations, a second time.
-
 
 BAR = 1e-10  # of the largest value: algebra alone, at some numbers of 1e4 beside ones of 1
 CLAIMS = [name for name, case in both.EVERY.items() if case.states is not None]

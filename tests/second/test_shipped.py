@@ -13,7 +13,6 @@ from textmech.reference.solve import solve
 
 # Every shipped case that is smooth moves the same, read a second time.
 
-
 BAR = 1e-7  # of the size of the motion: both integrate to some 1e-10 of it, forces to 1e-9
 SWITCHES = {
     "anisotropic_drift", "ball_on_rope", "bearing", "bouncing_disk", "compass_walker", "cradle",
@@ -74,7 +73,6 @@ def test_a_smooth_case_moves_the_same(name: str) -> None:
 
 
 # Every shipped case that switches moves the same, read a second time, with all its events.
-
 
 EARLY = 1e-7  # of the duration: by so much may the time of an event differ
 ROUND = 1e-5  # of the duration, where a speed ends as (T − t)²: it is 1e-10 m/s so much earlier
@@ -147,7 +145,6 @@ def test_the_smooth_law_moves_as_the_exact_one(name: str) -> None:
 
 
 # Where a law jumps the second reading chooses anew what sticks, and reads the sample behind it.
-
 
 M, MU, PUSH, AT, G = 2.0, 0.5, 15.0, 0.5, 9.80665
 SCENE = f"""\

@@ -25,7 +25,6 @@ from textmech.cases.scene.rotation import matrix
 
 # What becomes of the words of a case in space.
 
-
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
@@ -87,7 +86,6 @@ def test_each_turn_of_an_attitude_is_about_the_axes_that_those_before_it_leave()
 
 # Every mistake that only a case in space can have: its place, its field, and what is said.
 
-
 ENGINES = {"mujoco": ("shipped", "tuned"), "pymunk": ("shipped", "tuned")}
 TABLE = Path(__file__).with_name("mistakes.txt").read_text(encoding="utf-8")
 EACH = re.findall(r"^- (.*)\n\+ (.*)\n(\d+:\d+): ([^:]*): (.*)$", TABLE, flags=re.MULTILINE)
@@ -142,7 +140,6 @@ def test_all_at_once() -> None:
 
 
 # A body that nothing keeps from turning about an axis, and that has no inertia about it.
-
 
 TEXT = """\
 title: A body on its joints
@@ -207,7 +204,6 @@ def test_held_or_with_inertia(joints: str) -> None:
 
 
 # What asks for endless work in space is said when the file is read, as in the plane.
-
 
 ON_A_HINGE = """\
 title: A body on a hinge

@@ -25,7 +25,6 @@ from textmech.cases.trajectory import Trajectory
 
 # Derived quantities in space against finite sums of point masses, moved by this test.
 
-
 G = np.array([0.3, -0.7, -9.0])
 MASSES = np.array([0.4, 0.3, 0.6, 0.2, 0.5])
 POINTS = np.random.default_rng(3).normal(size=(5, 3)) * 0.3
@@ -163,7 +162,6 @@ def test_every_quantity_is_seen_or_refused() -> None:
 
 
 # Coordinates, gaps and contacts in space on motions that are made from them.
-
 
 A, B = np.array([0.1, -0.2, 0.3]), np.array([-0.2, 0.1, 0.4])  # the points that are joined
 U, V, W = (np.array(u) / np.linalg.norm(u) for u in [(1, 2, 2), (0, 3, -1), (2, 0, 1)])
@@ -325,7 +323,6 @@ def test_what_touches() -> None:
 
 
 # What a blade in space observes, of motions that are known.
-
 
 TIP = (0.13, 0.014, -0.045)
 BLADE = Edge("blade", Anchor("hand", "P"), (1.0, 0.0, 0.0), kept=True, frame=SPACE)

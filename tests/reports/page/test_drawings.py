@@ -32,7 +32,6 @@ from textmech.reports.page.sketch import sketch as sketched
 
 # A mechanism that is drawn: its outlines, its springs, and each body in its own motion.
 
-
 TEXT = """\
 title: A block and a particle, free of each other, with a spring between their edges
 scene:
@@ -185,7 +184,6 @@ def test_a_turned_body_is_drawn_turned() -> None:
 
 # What a drawing is made of: outlines in own axes, rails, blades, and how far all of it reaches.
 
-
 ON_A_SLIDE = """\
 title: A bar on a slide that another body carries, under a hook that moves
 scene:
@@ -277,7 +275,6 @@ def test_a_driven_point_is_drawn_where_it_is(sliding: Case) -> None:
 
 
 # What is drawn is what was computed: poses, curves and the joints between bodies.
-
 
 LEVEL = 1 / 4096  # of a range: half of it is rounded
 

@@ -31,7 +31,6 @@ from textmech.reports.page.page import COLUMNS, embedded, mutants, page
 
 # The page as text: the same bytes every time, whole by itself, and no text of a case is markup.
 
-
 LARGEST = 3_000_000  # bytes: what a person waits for
 VOID = {"meta", "link", "input", "br", "img", "hr"}
 
@@ -175,7 +174,6 @@ def test_a_cut_table_is_told(made: SimpleNamespace, tmp_path: Path) -> None:
 
 # The planted mistakes on the page: counted by room, each with the test that sees it.
 
-
 LAW, ODD = "tests/reference/test_law.py::test_seen", "tests/engines/test_odd.py::test_seen"
 FRAME = pd.DataFrame(
     [
@@ -291,7 +289,6 @@ def test_what_is_generated_has_none() -> None:
 
 
 # `textmech page` and `textmech plot`, as a person types them.
-
 
 PNG = b"\x89PNG\r\n"
 

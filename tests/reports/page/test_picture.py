@@ -17,7 +17,6 @@ from textmech.reports.page.poses import Poses
 
 # The picture of one quantity on paper: its curves, its tube, and its ladder.
 
-
 ALLOWED = 1e-2
 
 
@@ -109,7 +108,6 @@ def test_a_curve_is_as_far_off_as_the_engine_is(named: str, was: str, now: str) 
 
 
 # A mechanism on paper: engines where they end, space seen from above, links between places.
-
 
 T = np.linspace(0.0, 1.0, 7)
 UP = np.stack([0 * T, 2 * T, 0 * T], axis=1)  # x, y, angle: it rises by 2 m

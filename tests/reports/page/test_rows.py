@@ -30,7 +30,6 @@ from textmech.reports.page.work import enough, profile, work, worst
 
 # What the page is told of a run: every number in its column, and what is counted of it.
 
-
 # No two numbers of a row are the same: one in the place of another is seen.
 COMPARED = replace(
     ROW, step=1e-3, error=2e-3, when=0.4, rms=3e-3, final=4e-3, allowed=1e-2, ratio=0.2,
@@ -207,7 +206,6 @@ def test_a_case_is_within_where_all_of_it_agrees() -> None:
 
 
 # Cells of the heat map: the gravest verdict, the worst error, and a shade for its size.
-
 
 COUNTED = replace(
     ROW, case="c", quantity="x", unit="m", step=0.1, allowed=2.0, ratio=0.5, because="why"
@@ -438,7 +436,6 @@ c    mujoco 3.9     shipped audit    agrees   -
 
 
 # Work against precision: what is drawn, counted by hand.
-
 
 CLIMBER = replace(COUNTED, case="a", because="")
 ERRORS_AT = {0.001: 0.2, 0.002: 1.0, 0.004: 4.0}

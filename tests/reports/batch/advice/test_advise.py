@@ -31,7 +31,6 @@ from textmech.reports.show.advice import advice_lines, shipped_lines, stopped_li
 
 # Advice for real cases: recipes that are known by hand, and what is said where there is none.
 
-
 CASES = (
     "bar_pendulum", "four_bar", "sliding_block.below", "planar_bodies", "heavy_top.cusp",
     "growing_force",
@@ -148,7 +147,6 @@ def test_advice_as_a_frame() -> None:
 
 # A recipe holds wherever a loop is cut, or it is none.
 
-
 HARD = {"integrator": "RK4", "connect": {"solimp": [0.9999, 0.9999, 0.001]}}
 
 
@@ -211,7 +209,6 @@ def test_what_changes_nothing_is_left_out_with_it() -> None:
 
 
 # What is said while advice is searched for: shipped at once, and on Ctrl-C the nearest so far.
-
 
 ASKED = Requirement(None, 2.0)
 STILL = """\

@@ -239,7 +239,6 @@ def test_what_is_left_of_a_recipe_holds_at_half_its_step_too(
 
 # Another tolerance than the case's: errors over a part of each quantity's own size.
 
-
 PLAIN = Candidate.of({}, 1e-3)
 
 

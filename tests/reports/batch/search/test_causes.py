@@ -32,7 +32,6 @@ from textmech.reports.show.cures import carried
 
 # Causes of real rows: those that are known by hand, and what is said where there are none.
 
-
 CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force")
 """`test_causes_are_current` searches them anew: what is committed of them is what is found."""
 

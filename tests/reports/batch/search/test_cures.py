@@ -28,7 +28,7 @@ from textmech.reports.batch.search.parallel_search import Known
 from textmech.reports.batch.tasks import Pair
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import planned
-from textmech.reports.data.row import BEYOND, Comparison, StepError
+from textmech.reports.data.row import StepError
 from textmech.reports.show import advice
 
 Error = Callable[[Mapping[str, Any], float], float | tuple[float, float]]
@@ -240,14 +240,8 @@ def test_a_law(errors: dict[float, float], words: str) -> None:
 
 # What a ladder tells is not run again, and is not taken for more than it is.
 
-
 BASE = Candidate.of({}, 2e-3)
-ROW = Comparison(
-    case="b", theme="pins", source="", engine="mujoco", version="4.0.0", setting="shipped",
-    realised="native",
-    protocol="", quantity="x", unit="m", step=2e-3, error=4.0, when=0.0, rms=1.0, final=1.0,
-    allowed=2.0, ratio=2.0, verdict=BEYOND, because="",
-)  # fmt: skip
+ROW = row(ratio=2.0, case="b", quantity="x", unit="m", error=4.0, allowed=2.0)
 STEPS = [
     StepError("b", "mujoco", "shipped", "native", "held", "x", "m", step, error)
     for step, error in ((5e-4, 1.0), (1e-3, 2.0), (2e-3, 4.0))
@@ -309,7 +303,6 @@ def test_of_what_strikes_every_start_has_to_keep_it() -> None:
 
 
 # What is told of a cure and of a recipe: its price, and of cures the cheapest first.
-
 
 OWN = 2e-3  # s: MuJoCo's as shipped
 AS_SHIPPED = Candidate.of({}, OWN)

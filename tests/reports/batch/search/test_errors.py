@@ -27,7 +27,6 @@ from textmech.reports.system import pool
 
 # One simulation is judged as its row is: the same numbers, whatever asks for them.
 
-
 CUT = 1e-6  # of what is allowed: rows leave out the digits that rounding decides
 
 
@@ -110,7 +109,6 @@ def test_a_tolerance_that_is_not_known_is_never_kept(tmp_path: Path) -> None:
 
 
 # Searches run together: each run once, in rounds, and one that dies costs nobody else anything.
-
 
 FATAL = Candidate.of({"fatal": True}, 1.0)
 
