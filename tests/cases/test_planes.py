@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.scenes import cases_of, mistakes_of, typed
+from given.scenes import cases_of, mistakes_of, typed_case
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
@@ -266,17 +266,17 @@ def test_tips_stand_on_a_circle_counter_clockwise() -> None:
     assert (body.moment, body.points["P"]) == (J, (0.1, 0.0))
 
 
-def test_a_start_stands_on_a_tip_that_does_not_move(tmp_path: Path) -> None:
+def test_a_start_stands_on_a_tip_that_does_not_move() -> None:
     """y = l cos α, and v = ω × r from the tip at (l sin α, 0)."""
-    case = typed(tmp_path, SCENE.format(**SOUND))
+    case = typed_case(SCENE.format(**SOUND))
     height = L * math.cos(math.pi / 6)
     wanted = (0.0, height, 0.0, 2 * height, 2 * L / 2, -2.0)
     assert start_poses(case)["wheel"] == pytest.approx(wanted, abs=1e-15)
 
 
-def test_gap_and_slip_are_of_the_lowest_tips(tmp_path: Path) -> None:
+def test_gap_and_slip_are_of_the_lowest_tips() -> None:
     """Turned by 10° about tip1 the next one is l sin 10° − … above the floor; and slip of tip1."""
-    scene = typed(tmp_path, SCENE.format(**SOUND)).scene
+    scene = typed_case(SCENE.format(**SOUND)).scene
     turn, half = math.radians(10), math.pi / 6
     x, y = L * math.sin(half) - L * math.sin(half - turn), L * math.cos(half - turn)
     states = {"wheel": np.array([[x, y, -turn, 0.5, 0.0, -2.0], [x, y, 0.0, 0.5, 0.0, 0.0]])}
@@ -296,9 +296,9 @@ def test_gap_and_slip_are_of_the_lowest_tips(tmp_path: Path) -> None:
         ({"start": "x: 0, on: tip6, omega: -2"}, "body 'wheel' has no point 'tip6'"),
     ],
 )
-def test_what_spokes_cannot_is_said(tmp_path: Path, changed: dict[str, str], words: str) -> None:
+def test_what_spokes_cannot_is_said(changed: dict[str, str], words: str) -> None:
     with pytest.raises(CaseError) as caught:
-        typed(tmp_path, SCENE.format(**{**SOUND, **changed}))
+        typed_case(SCENE.format(**{**SOUND, **changed}))
     assert words in str(caught.value)
 
 
@@ -310,8 +310,8 @@ def test_what_spokes_cannot_is_said(tmp_path: Path, changed: dict[str, str], wor
         ("angle: 0, on: tip1", "wheel.x is not determined"),
     ],
 )
-def test_a_start_that_cannot_be_is_said(tmp_path: Path, start: str, words: str) -> None:
-    case = typed(tmp_path, SCENE.format(**{**SOUND, "start": start}))
+def test_a_start_that_cannot_be_is_said(start: str, words: str) -> None:
+    case = typed_case(SCENE.format(**{**SOUND, "start": start}))
     with pytest.raises(CaseError, match=words):
         start_poses(case)
 
@@ -345,8 +345,8 @@ allow: {{a.angle: 1.0e-3}}
         ("c.start", ", ahead_of: a.start", "unknown body 'c'"),
     ],
 )
-def test_feet_are_two(tmp_path: Path, one: str, two: str, words: str) -> None:
+def test_feet_are_two(one: str, two: str, words: str) -> None:
     with pytest.raises(CaseError) as caught:
-        typed(tmp_path, FEET.format(one=one, two=two))
+        typed_case(FEET.format(one=one, two=two))
     assert words in str(caught.value)
-    typed(tmp_path, FEET.format(one="b.start", two=", ahead_of: a.start"))
+    typed_case(FEET.format(one="b.start", two=", ahead_of: a.start"))

@@ -1,7 +1,6 @@
 """Starts of a blade, by a distance and a direction, and of a disk without an angle."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,9 +35,9 @@ def test_slip_is_to_the_left_and_speed_along() -> None:
     assert observe(scene, motion, "blade.slip") == pytest.approx([0.42], abs=1e-15)
 
 
-def test_rates_follow_from_the_speed(tmp_path: Path) -> None:
+def test_rates_follow_from_the_speed() -> None:
     """u = 0.7 along 40° + atan 3/4, and (2.6) from P to the centre."""
-    case = scenes.typed(tmp_path, edges.FREE)
+    case = scenes.typed_case(edges.FREE)
     x, y, angle, vx, vy, omega = start_poses(case)["sleigh"]
     along, turn = np.exp(1j * (angle + np.arctan2(0.6, 0.8))), np.exp(1j * angle)
     lever = -(-0.35 + 0.1j) * turn  # from P to the centre
@@ -47,22 +46,22 @@ def test_rates_follow_from_the_speed(tmp_path: Path) -> None:
     assert omega == 1.1
 
 
-def test_rates_that_slip_are_a_mistake(tmp_path: Path) -> None:
+def test_rates_that_slip_are_a_mistake() -> None:
     slipping = edges.FREE.replace("omega: 1.1}", "omega: 1.1, vx: 3, vy: 0}")
     with pytest.raises(CaseError, match="the rates violate blade"):
-        start_poses(scenes.typed(tmp_path, slipping))
+        start_poses(scenes.typed_case(slipping))
 
 
-def test_without_a_speed_more_is_needed(tmp_path: Path) -> None:
+def test_without_a_speed_more_is_needed() -> None:
     open_ended = edges.FREE.replace(", blade: {speed: 0.7}", "")
     with pytest.raises(CaseError, match=r"sleigh\.vx, sleigh\.vy are not determined"):
-        start_poses(scenes.typed(tmp_path, open_ended))
+        start_poses(scenes.typed_case(open_ended))
 
 
-def test_an_edge_that_repeats_another_is_a_mistake(tmp_path: Path) -> None:
+def test_an_edge_that_repeats_another_is_a_mistake() -> None:
     twice = edges.FREE.replace("0.6]}}", "0.6]}, again: {edge: sleigh.P, along: [0.8, 0.6]}}")
     with pytest.raises(CaseError, match=r"scene\.constraints\.again: .* not independent"):
-        start_poses(scenes.typed(tmp_path, twice))
+        start_poses(scenes.typed_case(twice))
 
 
 UPRIGHT = """\
@@ -76,9 +75,9 @@ allow: {b.angle: 1.0e-2}
 """A blade with all its rates, beside what is a billion times as fast."""
 
 
-def upright(tmp_path: Path, angle: float, rates: str) -> None:
+def upright(angle: float, rates: str) -> None:
     text = UPRIGHT.replace("ANGLE", f"{angle:g}").replace("RATES", rates)
-    start_poses(scenes.typed(tmp_path, text))
+    start_poses(scenes.typed_case(text))
 
 
 @pytest.mark.mutant("rates are compared with products that are rounding themselves")
@@ -93,27 +92,27 @@ def upright(tmp_path: Path, angle: float, rates: str) -> None:
     ],
 )
 def test_a_blade_at_right_angles_may_have_all_its_rates(
-    tmp_path: Path, angle: float, rates: str, monkeypatch: pytest.MonkeyPatch
+    angle: float, rates: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The row is (-1, 6e-17), the velocity (0, 1): both products are rounding."""
-    upright(tmp_path, angle, rates)
+    upright(angle, rates)
     monkeypatch.setattr(closure, "product_size", lambda rows, v: np.max(abs(rows * v), initial=0.0))
     with pytest.raises(CaseError, match="the rates violate blade"):
-        upright(tmp_path, angle, rates)
+        upright(angle, rates)
 
 
 @pytest.mark.mutant("rates are compared with those of strangers")
 def test_what_slips_by_a_millionth_is_refused_beside_any_stranger(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     rates = "vx: 1e-6, vy: 1, omega: 0"
     with pytest.raises(CaseError, match="the rates violate blade"):
-        upright(tmp_path, 90, rates)
+        upright(90, rates)
     monkeypatch.setattr(closure, "product_size", lambda rows, v: np.linalg.norm(v))
-    upright(tmp_path, 90, rates)
+    upright(90, rates)
 
 
-def test_a_slot_at_right_angles_may_have_all_its_rates(tmp_path: Path) -> None:
+def test_a_slot_at_right_angles_may_have_all_its_rates() -> None:
     text = """\
 scene:
   gravity: none
@@ -123,7 +122,7 @@ scene:
 initial: {b: {x: 0, y: 0, angle: 90 deg, vx: 0, vy: 0, omega: 0}, c: {x: 0, y: 1, vx: 0, vy: 0.4}}
 allow: {c.y: 1.0e-2}
 """
-    start_poses(scenes.typed(tmp_path, text))
+    start_poses(scenes.typed_case(text))
 
 
 # Starts by a distance and a direction from a point of the ground.
@@ -157,11 +156,9 @@ def off(case: Case, at: tuple[float, float]) -> float:
 
 
 @pytest.mark.parametrize(("point", "at"), STARTS.items())
-def test_the_centre_is_so_far_in_that_direction(
-    tmp_path: Path, point: str, at: tuple[float, float]
-) -> None:
+def test_the_centre_is_so_far_in_that_direction(point: str, at: tuple[float, float]) -> None:
     """Of a driven point, from where it starts: that of a sine with a phase is not `at`."""
-    case = scenes.typed(tmp_path, HELD.replace("POINT", point))
+    case = scenes.typed_case(HELD.replace("POINT", point))
     given = case.initial["rod"].given
     assert off(case, at) < 1e-15
     assert {key: given[key] for key in ("angle", "vx", "vy")} == {"angle": 1.0, "vx": 1.0, "vy": 0}
@@ -170,17 +167,15 @@ def test_the_centre_is_so_far_in_that_direction(
 
 @pytest.mark.mutant("a polar start counted from `at` of a point that moves")
 @pytest.mark.parametrize("point", ["S", "C"])
-def test_a_start_from_at_is_seen(
-    point: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_start_from_at_is_seen(point: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(GroundPoint, "state", lambda self, t: (*self.at, *self.velocity))
-    assert off(scenes.typed(tmp_path, HELD.replace("POINT", point)), STARTS[point]) > 0.1
+    assert off(scenes.typed_case(HELD.replace("POINT", point)), STARTS[point]) > 0.1
 
 
-def test_it_starts_there(tmp_path: Path) -> None:
-    x, y, angle, *_ = solve(scenes.typed(tmp_path, HELD.replace("POINT", "O"))).trajectory.states[
-        "rod"
-    ][0]
+def test_it_starts_there() -> None:
+    x, y, angle, *_ = solve(scenes.typed_case(HELD.replace("POINT", "O"))).trajectory.states["rod"][
+        0
+    ]
     assert (x - 0.3, y + 0.2) == pytest.approx((-0.25 * math.sqrt(3), -0.25), abs=1e-15)
     assert angle == 1.0
 

@@ -1,4 +1,4 @@
-"""Shipped cases with their solutions, those of `tests/scenes` by name, and cases typed in a test."""
+"""Shipped cases with their solutions, those of `tests/scenes` by name, and typed ones."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -111,3 +111,8 @@ def typed(tmp_path: Path, scene: str, *, tail: str = TAIL) -> Case:
     path = tmp_path / "typed.yaml"
     path.write_text(HEAD + scene + tail, encoding="utf-8")
     return load(path)[0]
+
+
+def typed_case(scene: str, *, tail: str = TAIL) -> Case:
+    """Returns the case of `typed`, whose file nobody asks for."""
+    return cases_of(HEAD + scene + tail)[0]

@@ -544,8 +544,8 @@ allow: {box.attitude: 1.0e-3}
 LENGTH = {DOMINO: 0.5, STACKED: 0.1, SPACE: 0.1}
 
 
-def told(folder: Path, text: str, more: str = "") -> list[str]:
-    case = scenes.typed(folder, text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
+def told(text: str, more: str = "") -> list[str]:
+    case = scenes.typed_case(text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
     return [*through(case.scene, solve(case).trajectory)]
 
 
@@ -557,15 +557,15 @@ def told(folder: Path, text: str, more: str = "") -> list[str]:
         (SPACE, "box.corner"),
     ],
 )
-def test_the_deepest_point_is_told(text: str, begins: str, tmp_path: Path) -> None:
-    (warning,) = told(tmp_path, text)
+def test_the_deepest_point_is_told(text: str, begins: str) -> None:
+    (warning,) = told(text)
     assert warning.startswith(begins)
     assert warning.endswith("no contact names it, so nothing holds it there")
 
 
-def test_how_deep_is_what_the_angle_says(tmp_path: Path) -> None:
+def test_how_deep_is_what_the_angle_says() -> None:
     """A domino about its right corner at φ < 0: its left upper one is h cos φ − w sin φ high."""
-    case = scenes.typed(tmp_path, DOMINO.replace("MORE", ""), tail=scenes.tail(0.5, 26))
+    case = scenes.typed_case(DOMINO.replace("MORE", ""), tail=scenes.tail(0.5, 26))
     motion = solve(case).trajectory
     angle = motion.states["box"][:, 2]
     above = 0.4 * np.cos(angle) - 0.1 * np.sin(angle)
@@ -573,12 +573,12 @@ def test_how_deep_is_what_the_angle_says(tmp_path: Path) -> None:
     assert f"goes {-1e3 * min(above):.3g} mm deep" in warning
 
 
-def test_nothing_is_told_of_what_is_named(tmp_path: Path) -> None:
+def test_nothing_is_told_of_what_is_named() -> None:
     names = ("lower_left", "upper_right", "upper_left")
     more = "".join(f", {n}: {{between: [box.{n}, ground.floor], friction: 1}}" for n in names)
     case = DOMINO.replace("allow:", "events: {falls: {upper_right.gap: falls to zero}}\nallow:")
     LENGTH[case] = 0.5
-    assert told(tmp_path, case, more) == []
+    assert told(case, more) == []
 
 
 @pytest.mark.slow
@@ -609,8 +609,6 @@ def test_check_and_python_warn_and_refuse_nothing(domino: Path) -> None:
 
 
 @pytest.mark.mutant("a corner that goes through the floor is told of none")
-def test_a_warning_that_is_left_out_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_warning_that_is_left_out_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(unnamed, "DEEP", math.inf)
-    assert told(tmp_path, DOMINO) == []
+    assert told(DOMINO) == []

@@ -12,7 +12,7 @@ from given import scenes
 from given.command import textmech
 from given.lines import said
 from given.otherwise import otherwise
-from given.scenes import cases_of, typed
+from given.scenes import cases_of, typed_case
 
 from textmech import engines
 from textmech.cases.case import Case, Deviation, Event
@@ -247,10 +247,10 @@ allow: {p.x: 1.0e-5, hits.time: 1.0e-5, hits.p.vx.after: 1.0e-3}
 """
 
 
-def solved(tmp_path: Path, law: tuple[str, str], duration: float = 2.0) -> tuple[Case, Trajectory]:
+def solved(law: tuple[str, str], duration: float = 2.0) -> tuple[Case, Trajectory]:
     text = GROWS.replace("TIMES", law[0]).replace("VALUES", law[1])
     tail = f"duration: {duration}\nsamples: 21\nstep: {STEP}\n"
-    case = typed(tmp_path, text if duration > 1 else text.replace(STAYS_TOO, ""), tail=tail)
+    case = typed_case(text if duration > 1 else text.replace(STAYS_TOO, ""), tail=tail)
     record = solve(case).trajectory.record
     assert record is not None
     return case, record
@@ -267,8 +267,8 @@ def read(case: Case, record: Trajectory, event: Event, step: float, share: float
 
 @pytest.mark.slow
 @pytest.mark.mutant("what moves is told by 2 % of its largest value, however slowly it begins")
-def test_what_begins_slowly_begins_when_it_does(tmp_path: Path) -> None:
-    case, record = solved(tmp_path, SLOWLY, 1.0)
+def test_what_begins_slowly_begins_when_it_does() -> None:
+    case, record = solved(SLOWLY, 1.0)
     event = case.events["loose"]
     happens = reference_events(case.scene, record, event)
     assert happens == pytest.approx([0.1049875], abs=1e-9)
@@ -279,8 +279,8 @@ def test_what_begins_slowly_begins_when_it_does(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.mutant("a slip below 4 % of the largest is a rest, and the next its partner")
-def test_a_weak_slip_between_two_is_one(tmp_path: Path) -> None:
-    case, record = solved(tmp_path, WEAKLY)
+def test_a_weak_slip_between_two_is_one() -> None:
+    case, record = solved(WEAKLY)
     for name, count in (("loose", 3), ("stops", 2)):
         event = case.events[name]
         happens = reference_events(case.scene, record, event)
@@ -290,9 +290,9 @@ def test_a_weak_slip_between_two_is_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_what_a_step_cannot_tell_is_paired_with_what_it_is(tmp_path: Path) -> None:
+def test_what_a_step_cannot_tell_is_paired_with_what_it_is() -> None:
     """Of three the weak one in the middle is not seen: the second that is found is the third."""
-    case, record = solved(tmp_path, WEAKLY)
+    case, record = solved(WEAKLY)
     event, step = case.events["loose"], 2e-2
     happens = reference_events(case.scene, record, event)
     assert surely(case.scene, record, event, happens, step, LOW).tolist() == [2]
@@ -336,7 +336,7 @@ def test_what_friction_stops_falls_to_zero_as_it_stops(after: float) -> None:
 
 
 @pytest.mark.slow
-def test_what_only_decays_does_not_come_to_rest(tmp_path: Path) -> None:
+def test_what_only_decays_does_not_come_to_rest() -> None:
     text = """\
 scene:
   gravity: none
@@ -346,7 +346,7 @@ events: {at: {b.x: {rises to: 0.02}}, turns: {b.vx: falls to zero}}
 initial: {b: {x: 0, y: 0, vx: 1, vy: 0}}
 allow: {b.x: 1.0e-3, at.time: 1.0e-2}
 """
-    case = typed(tmp_path, text)
+    case = typed_case(text)
     record = solve(case).trajectory.record
     assert record is not None
     assert reading(case.scene, record, case.events["turns"], np.zeros(0), 1e-3) == 0.0
@@ -354,12 +354,9 @@ allow: {b.x: 1.0e-3, at.time: 1.0e-2}
 
 @pytest.mark.slow
 @pytest.mark.mutant("a count that steps cannot tell is equal")
-def test_what_comes_too_soon_for_a_step_is_no_reproach(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_comes_too_soon_for_a_step_is_no_reproach(monkeypatch: pytest.MonkeyPatch) -> None:
     """Three steps before it breaks loose, and two of three before the end of a short motion."""
-    case = typed(
-        tmp_path,
+    case = typed_case(
         GROWS.replace("TIMES", SOON[0]).replace("VALUES", SOON[1]).replace(STAYS_TOO, ""),
         tail="duration: 0.5\nsamples: 26\n",
     )
@@ -375,9 +372,9 @@ def test_what_comes_too_soon_for_a_step_is_no_reproach(
     assert rows["loose.count"].verdict == AGREES
 
 
-def test_counts_that_differ_are_not_equal(tmp_path: Path) -> None:
+def test_counts_that_differ_are_not_equal() -> None:
     """Of three slips such steps tell the last alone; what they tell, and misses, is counted."""
-    case, record = solved(tmp_path, WEAKLY)
+    case, record = solved(WEAKLY)
     timing = Timing(case, record)
     told = {count: timing.miscounted("loose", count, 2e-2) for count in range(6)}
     assert told == {0: 1.0, 1: None, 2: None, 3: 0.0, 4: 1.0, 5: 2.0}
@@ -398,9 +395,9 @@ def test_a_motion_of_ten_steps_has_its_rows(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.mutant("a step that is cut has a middle, half a step back along what follows")
-def test_what_is_cut_is_where_the_body_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_cut_is_where_the_body_was(monkeypatch: pytest.MonkeyPatch) -> None:
     """It lands less than half a step before a step ends."""
-    case = typed(tmp_path, PUCK, tail="duration: 1.0\nsamples: 26\n")
+    case = typed_case(PUCK, tail="duration: 1.0\nsamples: 26\n")
 
     def errors() -> dict[str, float | None]:
         rows = judged(case, Pymunk("tuned"))
@@ -414,10 +411,9 @@ def test_what_is_cut_is_where_the_body_was(tmp_path: Path, monkeypatch: pytest.M
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("speed", "duration"), [(1.2, 1.0), (0.9, 1.0), (1.2, 0.7), (1.2, 2.3)])
-def test_the_exact_motion_at_steps_is_it(speed: float, duration: float, tmp_path: Path) -> None:
+def test_the_exact_motion_at_steps_is_it(speed: float, duration: float) -> None:
     """Also where it stops on a sample, behind which are rows an ulp apart; and at its very end."""
-    case = typed(
-        tmp_path,
+    case = typed_case(
         f"""\
 scene:
   gravity: none
@@ -463,9 +459,9 @@ def test_what_swings_on_has_not_come_to_rest() -> None:
     assert len(engine_events(scene, swings, event, Known(LOW))) > 1
 
 
-def test_what_lands_in_the_last_step_has_landed(tmp_path: Path) -> None:
+def test_what_lands_in_the_last_step_has_landed() -> None:
     puck = PUCK.replace("0.80017", "0.7996").replace("step: 1.0e-4", "step: 1.0e-3")
-    case = typed(tmp_path, puck, tail="duration: 0.4\nsamples: 6\n")
+    case = typed_case(puck, tail="duration: 0.4\nsamples: 6\n")
     rows = {row.quantity: row for row in judged(case, Pymunk("tuned")) if row.realised == "driver"}
     assert rows["hits.count"].error == 0.0
     assert (rows["hits.time"].error or 0.0) < 1e-9
@@ -513,9 +509,9 @@ def test_others_do_not(at_once: dict[tuple[str, str], Comparison]) -> None:
 
 
 @pytest.mark.slow
-def test_it_is_the_cure(tmp_path: Path) -> None:
+def test_it_is_the_cure() -> None:
     """2.8 m/s off at once; with 20 ms for the impact 0.06."""
-    found = tuned_rows(scenes.typed(tmp_path, ROPE, tail=TAIL + "tube: 20 ms\n"))
+    found = tuned_rows(scenes.typed_case(ROPE, tail=TAIL + "tube: 20 ms\n"))
     assert "tube" not in said(found["native", "taut.ball.vy.after"])
     assert found["native", "taut.ball.vy.after"].verdict == AGREES
 

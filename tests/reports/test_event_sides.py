@@ -1,13 +1,12 @@
 """Events of certified motions: from which side zero comes, and what piles up or hardly happens."""
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from given.otherwise import otherwise
-from given.scenes import scene, typed
+from given.scenes import scene, typed_case
 from scipy.optimize import brentq
 
 from textmech.cases.case import Case, Event
@@ -61,13 +60,11 @@ EVENTS
 SPRING = "forces: {s: {spring: [ground.O, b.center], stiffness: 10, rest_length: 0}}"
 
 
-def rail(
-    folder: Path, speed: float, start: float = 0.0, forces: str = "", lasts: float = 12.0
-) -> Case:
+def rail(speed: float, start: float = 0.0, forces: str = "", lasts: float = 12.0) -> Case:
     text = RAIL.replace("SPEED", repr(speed)).replace("START", repr(start))
     text = text.replace("  FORCES\n", f"  {forces}\n" if forces else "")
     text = text.replace("EVENTS", "events: {it: {r.slip: falls to zero}}")
-    return typed(folder, text, tail=f"duration: {lasts}\nsamples: 25\n")
+    return typed_case(text, tail=f"duration: {lasts}\nsamples: 25\n")
 
 
 ROWS = np.linspace(0.0, 1.0, 9)
@@ -139,8 +136,8 @@ PLANTED = {
 }  # fmt: skip
 
 
-def test_a_slip_comes_to_zero_from_the_side_where_it_was(tmp_path: Path) -> None:
-    case = rail(tmp_path, 1.0)
+def test_a_slip_comes_to_zero_from_the_side_where_it_was() -> None:
+    case = rail(1.0)
     assert misread(case) == []
     for seed in range(150):
         record, _ = drawn(seed)
@@ -149,11 +146,11 @@ def test_a_slip_comes_to_zero_from_the_side_where_it_was(tmp_path: Path) -> None
 
 @pytest.mark.mutant("what rises to zero by its name falls to it, or is asked of another row")
 @pytest.mark.parametrize("planted", PLANTED)
-def test_a_side_that_is_not_asked_is_seen(planted: str, tmp_path: Path) -> None:
+def test_a_side_that_is_not_asked_is_seen(planted: str) -> None:
     was, now = PLANTED[planted]
     if not now:
         now = "if np.any(clear) else 0"
-    assert misread(rail(tmp_path, 1.0), otherwise(event_times, was, now), 40) != []
+    assert misread(rail(1.0), otherwise(event_times, was, now), 40) != []
 
 
 # What only decays to zero does not come to it where something else happens.
@@ -170,10 +167,8 @@ def decaying(law: Any, after: float = 0.0) -> Trajectory:
 
 
 @pytest.mark.mutant("what has decayed below what counts has come to zero")
-def test_what_has_only_decayed_has_not_come_to_zero(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case = rail(tmp_path, 1.0)
+def test_what_has_only_decayed_has_not_come_to_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = rail(1.0)
     decays = decaying(lambda t: np.exp(-16 * t), math.exp(-32))
     for rule in (FALLS, STAYS):
         assert len(reference_events(case.scene, decays, Event("b.vx", rule))) == 0
@@ -196,9 +191,9 @@ def happened(case: Case, name: str, rule: Rule) -> list[float]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_what_friction_stops_comes_from_its_own_side(way: float, tmp_path: Path) -> None:
+def test_what_friction_stops_comes_from_its_own_side(way: float) -> None:
     """At 10 s, by 0.1 m/s²."""
-    case = rail(tmp_path, way)
+    case = rail(way)
     assert happened(case, "r.slip", FALLS if way > 0 else RISES) == pytest.approx([10.0], abs=1e-9)
     assert happened(case, "r.slip", RISES if way > 0 else FALLS) == []
     (wrong, *others) = mistaken(case, solve(case).trajectory) or [None]
@@ -208,9 +203,9 @@ def test_what_friction_stops_comes_from_its_own_side(way: float, tmp_path: Path)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_what_swings_turns_from_either_side(way: float, tmp_path: Path) -> None:
+def test_what_swings_turns_from_either_side(way: float) -> None:
     """Every half period π/√10 s; it starts towards the spring's other end."""
-    case = rail(tmp_path, 0.0, 0.5 * way, SPRING, 3.5)
+    case = rail(0.0, 0.5 * way, SPRING, 3.5)
     half = math.pi / math.sqrt(10.0)
     odd, even = [half, 3 * half], [2 * half]
     for name in ("r.slip", "b.vx"):
@@ -237,11 +232,11 @@ allow: {b.x: 1.0e-3}
     [("compression", "0.5", RISES, FALLS), ("tension", "1.5", FALLS, RISES)],
 )
 def test_the_force_of_a_one_sided_spring_has_its_side(
-    only: str, start: str, rule: Rule, other: Rule, tmp_path: Path
+    only: str, start: str, rule: Rule, other: Rule
 ) -> None:
     """It slackens after a quarter of its period, and never acts again."""
     text = PRESSED.replace("ONLY", only).replace("START", start)
-    case = typed(tmp_path, text, tail="duration: 0.7\nsamples: 8\n")
+    case = typed_case(text, tail="duration: 0.7\nsamples: 8\n")
     quarter = math.pi / math.sqrt(10.0) / 2
     assert happened(case, "s.force", rule) == pytest.approx([quarter], abs=1e-9)
     assert happened(case, "s.force", other) == []
@@ -272,10 +267,8 @@ allow: {b.x: 1.0e-3}
     ("text", "name", "stops"),
     [(TURNS, "p.slip", 4.0), (GLIDES, "c.slip", 1 / (0.1 * 9.80665))],
 )
-def test_pins_and_contacts_have_two_sides_too(
-    text: str, name: str, stops: float, tmp_path: Path
-) -> None:
-    case = typed(tmp_path, text, tail="duration: 11.0\nsamples: 11\n")
+def test_pins_and_contacts_have_two_sides_too(text: str, name: str, stops: float) -> None:
+    case = typed_case(text, tail="duration: 11.0\nsamples: 11\n")
     assert observe(case.scene, solve(case).trajectory, name)[0] == -1.0
     assert happened(case, name, RISES) == pytest.approx([stops], abs=1e-9)
     assert happened(case, name, FALLS) == []
@@ -329,7 +322,7 @@ MIRROR: tuple[tuple[Rule, Rule], ...] = (
 )  # fmt: skip
 
 
-def mirrored(folder: Path, seed: int, way: float) -> Case:
+def mirrored(seed: int, way: float) -> Case:
     """A particle with a spring, dry friction, a push and a wall; way: 1, or -1 to mirror it."""
     random = np.random.default_rng(seed)
     x = [round(float(each), 3) for each in random.uniform(0.2, 1.0, 8)]
@@ -339,14 +332,14 @@ def mirrored(folder: Path, seed: int, way: float) -> Case:
         w=20 * x[7], v=way * float(random.choice([-3.0, 3.0])),
         dry=f"{{kinetic: {{forward: {forward!r}, backward: {backward!r}}}}}",
     )  # fmt: skip
-    return typed(folder, text, tail="duration: 2.0\nsamples: 11\n")
+    return typed_case(text, tail="duration: 2.0\nsamples: 11\n")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
-def test_what_falls_rises_in_the_mirror(seed: int, tmp_path: Path) -> None:
+def test_what_falls_rises_in_the_mirror(seed: int) -> None:
     """Also through stick, blows and turns; and each engine's step reads the same."""
-    cases = [mirrored(tmp_path, seed, way) for way in (1.0, -1.0)]
+    cases = [mirrored(seed, way) for way in (1.0, -1.0)]
     records = [solve(case).trajectory.record for case in cases]
     counts = 0
     for name in ("r.slip", "b.vx", "b.x"):
@@ -362,9 +355,9 @@ def test_what_falls_rises_in_the_mirror(seed: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("rule", [FALLS, RISES])
-def test_what_an_engine_leaves_at_rest_comes_from_its_side(rule: Rule, tmp_path: Path) -> None:
+def test_what_an_engine_leaves_at_rest_comes_from_its_side(rule: Rule) -> None:
     """It stops from below at 0.5 s, and then creeps by a thousandth."""
-    case, t = rail(tmp_path, 1.0), np.linspace(0.0, 2.0, 2001)
+    case, t = rail(1.0), np.linspace(0.0, 2.0, 2001)
     states = np.zeros((len(t), 6))
     states[:, VX] = np.where(t < 0.5, 2 * t - 1, 1e-5 * np.sin(30 * (t - 0.5)))
     found = engine_events(case.scene, Trajectory(t, {"b": states}, {}), Event("b.vx", rule), KNOWN)
@@ -475,10 +468,8 @@ allow: {b.y: 1.0e-2, lands.count: 0.5}
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("text", "name", "times"), [(ROLLS, "rolls", 1), (BESIDE, "lands", 2)])
-def test_what_ends_during_a_pile_is_counted(
-    tmp_path: Path, text: str, name: str, times: int
-) -> None:
-    case = typed(tmp_path, text, tail="")
+def test_what_ends_during_a_pile_is_counted(text: str, name: str, times: int) -> None:
+    case = typed_case(text, tail="")
     found = solve(case)
     assert mistaken(case, found.trajectory) == []
     assert counted(case, found, name) == times
@@ -517,13 +508,11 @@ def meetings(e: float) -> list[int]:
 
 @pytest.mark.slow
 @pytest.mark.mutant("a blow within rounding is counted")
-def test_blows_within_rounding_are_not_counted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_blows_within_rounding_are_not_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """Three disks in a row meet ever more softly, above e = 7 - 4√3 for a time: here 32 times each,
     of which the last change the velocities by 1e-36."""
     for e, known in ((0.1, True), (0.08, True), (0.072, False)):
-        case = typed(tmp_path, DISKS.replace("E}", f"{e}}}"), tail="")
+        case = typed_case(DISKS.replace("E}", f"{e}}}"), tail="")
         found = solve(case)
         wrong = mistaken(case, found.trajectory)
         assert [m.where for m in wrong] == ([] if known else ["allow.pp.count", "allow.qq.count"])
@@ -552,10 +541,10 @@ allow: {on.time: 1.0e-3, b.y: 1.0e-2}
 """
 
 
-def shaken(folder: Path, parts: float, friction: float, duration: float) -> Case:
+def shaken(parts: float, friction: float, duration: float) -> Case:
     """parts: of g, the largest acceleration of the platform."""
     text = SHAKEN.replace("SPEED", repr(parts * G / 20.0)).replace("MU", repr(friction))
-    return typed(folder, text.replace("LAST", repr(duration)), tail="")
+    return typed_case(text.replace("LAST", repr(duration)), tail="")
 
 
 def hop(parts: float) -> tuple[float, float]:
@@ -580,10 +569,8 @@ def hop(parts: float) -> tuple[float, float]:
         (1.0001, 0.0, 1),
     ],
 )
-def test_a_platform_that_hardly_lets_go(
-    tmp_path: Path, parts: float, friction: float, periods: int
-) -> None:
-    case = shaken(tmp_path, parts, friction, (periods - 1) * math.tau / 20 + 0.25)
+def test_a_platform_that_hardly_lets_go(parts: float, friction: float, periods: int) -> None:
+    case = shaken(parts, friction, (periods - 1) * math.tau / 20 + 0.25)
     found = solve(case)
     assert found.holds
     assert found.trajectory.record is not None
@@ -595,9 +582,9 @@ def test_a_platform_that_hardly_lets_go(
 
 @pytest.mark.slow
 @pytest.mark.mutant("a landing by rounding, just after it has let go, is one")
-def test_rounding_lands_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rounding_lands_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """By itself: that a gap of rounding is not looked at hides it in this scene."""
-    case = shaken(tmp_path, 1.0001, 0.3, 0.6)
+    case = shaken(1.0001, 0.3, 0.6)
     assert solve(case).holds
     monkeypatch.setattr(mechanism, "ROUNDS", 0.0)
     assert solve(case).holds
@@ -607,8 +594,8 @@ def test_rounding_lands_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.slow
 @pytest.mark.mutant("where nothing presses, two ways to slide are two motions")
-def test_what_does_not_press_does_not_rub(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_does_not_press_does_not_rub(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mechanism, "ROUNDS", 0.0)  # else nothing is pressed by rounding there
     monkeypatch.setattr(mode_selection, "_exert_alike", lambda *_: False)
     with pytest.raises(CaseError, match="held by the others already"):
-        solve(shaken(tmp_path, 1.0001, 0.3, 0.6))
+        solve(shaken(1.0001, 0.3, 0.6))
