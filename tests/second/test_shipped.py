@@ -79,7 +79,7 @@ ROUND = 1e-5  # of the duration, where a speed ends as (T − t)²: it is 1e-10 
 FLAT = {"drag_stops.root.stops"}
 EVENT_BAR = 1e-6  # of the largest: what is read where time is known to 1e-7 of the duration
 NEAR = 1e-3  # of the motion: the band of the smooth law is 5e-4 m/s beside speeds of 2 m/s
-SMOOTHED = {"dynamometer_smooth", "growing_force_smooth"}  # `words.py` says why
+SMOOTHED = {"dynamometer_smooth", "growing_force_smooth"}  # `test_words.py` says why
 TOO_SHORT = {
     "ball_on_rope", "bouncing_ball", "creeping_block", "held_joint", "landing", "rolling_down",
     "running_step", "sinking_ball", "sliding_block", "spring_mass_jump", "stopped_pendulum",
