@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pytest
 from given.damage import damaged, numbers
@@ -38,29 +39,17 @@ def outcome(file: Path, content: bytes) -> str:
 
 
 @pytest.mark.slow
-def test_a_damaged_file_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
+@pytest.mark.parametrize("drawn", [damaged(), damaged([SPATIAL])], ids=["plane", "space"])
+def test_a_damaged_file_is_loaded_or_refused_with_places(drawn: Any, tmp_path: Path) -> None:
     seen: Counter[str] = Counter()
 
     @often
-    @given(damaged())
+    @given(drawn)
     def each(content: bytes) -> None:
         seen[outcome(tmp_path / "case.yaml", content)] += 1
 
     each()
     assert min(seen["loaded"], seen["refused"]) > N / 20  # or the damage is too small or too large
-
-
-@pytest.mark.slow
-def test_a_damaged_file_in_space_is_loaded_or_refused_with_places(tmp_path: Path) -> None:
-    seen: Counter[str] = Counter()
-
-    @often
-    @given(damaged([SPATIAL]))
-    def each(content: bytes) -> None:
-        seen[outcome(tmp_path / "case.yaml", content)] += 1
-
-    each()
-    assert min(seen["loaded"], seen["refused"]) > N / 20
 
 
 @pytest.mark.slow

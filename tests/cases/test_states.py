@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given.claims import CHAIN, PLANE, claimed
+from given.scenes import cases_of, mistakes_of
 
 from textmech.cases import find
 from textmech.cases.language.grammar.file import Drawn
-from textmech.cases.load import load
-from textmech.cases.mistake import CaseError
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.states import States, claimable, coordinates
 
@@ -68,12 +67,8 @@ def test_a_mass_matrix_of_one_unit_has_one(tmp_path: Path) -> None:
     assert claimable(claimed(tmp_path, shifting).scene)["mass_matrix"].unit == "kg"
 
 
-def mistakes(folder: Path, text: str) -> list[tuple[str, str]]:
-    path = folder / "claimed.yaml"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(CaseError) as caught:
-        load(path)
-    return [(m.where, m.what) for m in caught.value.mistakes]
+def mistakes(text: str) -> list[tuple[str, str]]:
+    return [(m.where, m.what) for m in mistakes_of(text)]
 
 
 @pytest.mark.parametrize(
@@ -141,15 +136,15 @@ def mistakes(folder: Path, text: str) -> list[tuple[str, str]]:
         ),
     ],
 )  # fmt: skip
-def test_mistakes(tmp_path: Path, old: str, new: str, where: str, what: str) -> None:
+def test_mistakes(old: str, new: str, where: str, what: str) -> None:
     assert CHAIN.count(old) >= 1
-    assert mistakes(tmp_path, CHAIN.replace(old, new, 1)) == [(where, what)]
+    assert mistakes(CHAIN.replace(old, new, 1)) == [(where, what)]
 
 
-def test_joints_of_the_plane_are_refused(tmp_path: Path) -> None:
+def test_joints_of_the_plane_are_refused() -> None:
     text = PLANE.replace("states:", "  joints: {q: {pin: [ground.O, wheel.P]}}\nstates:")
     what = "has no place here: states of the plane are those of free bodies; write `space: 3`"
-    assert mistakes(tmp_path, text) == [("scene.joints.q", what)]
+    assert mistakes(text) == [("scene.joints.q", what)]
 
 
 DRAG = PLANE.replace(
@@ -161,13 +156,13 @@ DRAG = PLANE.replace(
 def test_no_work_is_done_in_a_state(tmp_path: Path) -> None:
     what = "'d.work' is no claim about states: work is done in time, and here is none"
     assert claimed(tmp_path, DRAG.replace("allow: {", "allow: {d.fx: 1, "))
-    found = mistakes(tmp_path, DRAG.replace("allow: {", "allow: {d.work: 1, "))
+    found = mistakes(DRAG.replace("allow: {", "allow: {d.work: 1, "))
     assert found == [("allow.d.work", what)]
 
 
-def test_a_missing_span_is_all_that_is_told(tmp_path: Path) -> None:
+def test_a_missing_span_is_all_that_is_told() -> None:
     """And not what the drag's exponent would be in a motion."""
-    found = mistakes(tmp_path, DRAG.replace(", q_dot: [-2, 2]", ""))
+    found = mistakes(DRAG.replace(", q_dot: [-2, 2]", ""))
     assert [where for where, _ in found] == ["states.q_dot"]
 
 
@@ -176,20 +171,18 @@ def test_a_mass_matrix_is_of_space(tmp_path: Path) -> None:
     text = PLANE[: PLANE.index("  bodies:")] + "  bodies: {ball: {particle: {mass: 2}}}\n"
     text += PLANE[PLANE.index("states:") : PLANE.index("allow:")]
     assert claimed(tmp_path, text + "allow: {momentum.x: 1}\n")
-    found = mistakes(tmp_path, text + "allow: {mass_matrix: 1}\n")
+    found = mistakes(text + "allow: {mass_matrix: 1}\n")
     assert [where for where, _ in found] == ["allow.mass_matrix"]
 
 
-def test_a_file_without_states_still_needs_a_motion(tmp_path: Path) -> None:
+def test_a_file_without_states_still_needs_a_motion() -> None:
     text = PLANE.replace("states: {random: 4, seed: 0, q: [-1, 1], q_dot: [-2, 2]}\n", "")
-    found = [what for _, what in mistakes(tmp_path, text)]
+    found = [what for _, what in mistakes(text)]
     assert found[:3] == [f"missing key '{key}'" for key in ("duration", "initial", "samples")]
 
 
-def test_a_variant_may_draw_others(tmp_path: Path) -> None:
-    path = tmp_path / "claimed.yaml"
-    path.write_text(PLANE + "variants: {a: {}, b: {states: {seed: 9}}}\n", encoding="utf-8")
-    a, b = load(path)
+def test_a_variant_may_draw_others() -> None:
+    a, b = cases_of(PLANE + "variants: {a: {}, b: {states: {seed: 9}}}\n")
     assert a.states is not None
     assert b.states is not None
     assert (a.states.seed, b.states.seed, b.states.random) == (0, 9, 4)

@@ -1,7 +1,7 @@
-"""Shipped cases with their solutions, those of `tests/scenes` by name, and cases typed in a test."""
+"""Shipped cases with their solutions, those of `tests/scenes` by name, and typed ones."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,6 +11,7 @@ from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.language.document import read
 from textmech.cases.load import load
+from textmech.cases.mistake import CaseError, Mistake
 from textmech.reference.solve import Solution, solve
 from textmech.reference.solve import mechanism as generated
 from textmech.reports.batch.cache.key import Keys
@@ -59,10 +60,24 @@ def scene_text(name: str, changes: Mapping[str, Any] | None = None, **parameters
 
 def scene(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> Case:
     """Returns the case of `scene_text`: `scene("slope", mu=0.3)`."""
+    return cases_of(scene_text(name, changes, **parameters), name)[0]
+
+
+def cases_of(text: str, name: str = "typed", **options: Any) -> list[Case]:
+    """Returns the cases of a file of this name with this text; options: those of `load`."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"{name}.yaml"
-        path.write_text(scene_text(name, changes, **parameters), encoding="utf-8")
-        return load(path)[0]
+        path.write_text(text, encoding="utf-8")
+        return load(path, **options)
+
+
+def mistakes_of(text: str, **options: Any) -> Sequence[Mistake]:
+    """Returns the mistakes of such a file: none where it is sound."""
+    try:
+        cases_of(text, **options)
+    except CaseError as error:
+        return error.mistakes
+    return ()
 
 
 def _merged(data: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -96,3 +111,8 @@ def typed(tmp_path: Path, scene: str, *, tail: str = TAIL) -> Case:
     path = tmp_path / "typed.yaml"
     path.write_text(HEAD + scene + tail, encoding="utf-8")
     return load(path)[0]
+
+
+def typed_case(scene: str, *, tail: str = TAIL) -> Case:
+    """Returns the case of `typed`, whose file nobody asks for."""
+    return cases_of(HEAD + scene + tail)[0]

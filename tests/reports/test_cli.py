@@ -1,21 +1,42 @@
-"""The command as a user meets it: what it prints, where, and its exit codes."""
+"""The command as a user meets it: what it prints, where, its exit codes, its documents."""
 
+import importlib
+import json
+import math
 import os
 import re
 import signal
+import subprocess
+import sys
 from collections.abc import Sequence
+from dataclasses import replace
+from math import inf, nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from given import scenes
 from given.command import NEW, process, textmech
+from given.lines import row
+from given.otherwise import otherwise
 
 from textmech.cases.case import Case
+from textmech.cases.find import questions
+from textmech.cases.mistake import Mistake
+from textmech.cases.scene import unnamed
+from textmech.cases.scene.unnamed import through
 from textmech.reference import solve as solving
+from textmech.reference.solve import solve
+from textmech.reports import solve as solved
 from textmech.reports.batch.selection import choose_engines
+from textmech.reports.batch.suite import Report
+from textmech.reports.data.row import BEYOND, FAILS
 from textmech.reports.output import write
+from textmech.reports.show.document import write as write_document
 from textmech.reports.system import limit
+
+# The command as a user meets it: what it prints, where, and its exit codes.
 
 
 @pytest.fixture(autouse=True)
@@ -51,37 +72,6 @@ def test_a_case_of_ones_own_runs_in_both_engines_and_writes_nothing(new: Path) -
 
 
 @pytest.mark.slow
-def test_out_and_keep_write_where_they_are_told(new: Path, tmp_path: Path) -> None:
-    done = textmech(
-        "run", new, "--engine", "mujoco.tuned", "--out", "o", "--keep", "k", folder=tmp_path
-    )
-    assert done.returncode == 0, done.stderr
-    assert sorted(p.name for p in (tmp_path / "o").iterdir()) == [
-        "causes.csv",
-        "convergence.csv",
-        "coverage.csv",
-        "events.csv",
-        "reference.csv",
-        "runs.csv",
-        "steps.csv",
-        "tolerance.csv",
-    ]
-    head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
-    assert head.split(",") == [
-        "t [s]",
-        "cart.x [m] reference",
-        "cart.x [m] mujoco.tuned.native",
-        "rod.angle [rad] reference",
-        "rod.angle [rad] mujoco.tuned.native",
-        *(f"{pose} reference" for pose in ("cart.y [m]", "cart.angle [rad]", "rod.x [m]")),
-        "rod.y [m] reference",
-    ]
-    assert len(rows) == 6
-    events = (tmp_path / "k" / "cart.events.csv").read_text()
-    assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
-
-
-@pytest.mark.slow
 def test_a_verdict_that_fails_is_exit_code_1_and_is_named(new: Path) -> None:
     new.write_text(f"{NEW}reach: {{mujoco: {{rod.angle: 1.0e-13}}}}\n", encoding="utf-8")
     done = textmech("run", new, "--engine", "mujoco.tuned")
@@ -98,14 +88,6 @@ def test_a_question_is_answered_and_does_not_fail(new: Path) -> None:
     told = "cart in mujoco: no setting keeps it at the judged step; nearest: mujoco.tuned, rod."
     assert told in done.stdout
     assert "FAILS" not in done.stdout
-
-
-@pytest.mark.slow
-def test_a_verdict_that_fails_is_exit_code_1_though_it_is_written(new: Path) -> None:
-    new.write_text(f"{NEW}reach: {{pymunk: {{cart.x: 1.0e-12}}}}\n", encoding="utf-8")
-    done = textmech("run", new, "--engine", "pymunk.tuned", "--out", "o", folder=new.parent)
-    assert done.returncode == 1
-    assert (new.parent / "o" / "tolerance.csv").is_file()
 
 
 @pytest.mark.slow
@@ -165,12 +147,6 @@ def test_check_names_all_mistakes_of_all_files_with_their_places(new: Path) -> N
     assert "other.yaml" in done.stderr
 
 
-def test_check_of_sound_files(new: Path) -> None:
-    done = textmech("check", new)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "1 case, no mistakes" in done.stdout
-
-
 @pytest.mark.slow
 def test_two_files_of_one_name_are_refused(new: Path) -> None:
     other = new.parent / "other" / new.name
@@ -180,20 +156,6 @@ def test_two_files_of_one_name_are_refused(new: Path) -> None:
     assert done.returncode == 2
     assert "already has the name 'cart'" in done.stderr
     assert textmech("check", new, new).returncode == 0
-
-
-@pytest.mark.slow
-def test_own_settings_are_a_line_below_shipped(new: Path) -> None:
-    file = new.with_name("mine.yaml")
-    file.write_text("mujoco: {step: 4.0e-3, integrator: implicitfast}\n", encoding="utf-8")
-    done = textmech("run", new, "--engine", "mujoco", "--settings", file)
-    assert done.returncode == 0, done.stderr
-    assert [w for w in done.stdout.split() if w.startswith("mujoco.")] == [
-        "mujoco.shipped",
-        "mujoco.recommended",
-        "mujoco.mine",
-    ]
-    assert "cart in mujoco 4.0.0 tuned" in done.stdout
 
 
 @pytest.mark.slow
@@ -207,7 +169,6 @@ def test_the_own_settings_of_the_readme(new: Path) -> None:
     assert {"mujoco.mine", "pymunk.mine"} <= set(done.stdout.split())
 
 
-@pytest.mark.slow
 def test_what_moves_late_is_no_mistake(new: Path) -> None:
     """Under a force that grows from zero nothing is to be seen in the first samples."""
     new.write_text(
@@ -225,7 +186,7 @@ allow: {dot.x: 1.0e-3}
 """,
         encoding="utf-8",
     )
-    done = textmech("run", new)
+    done = textmech("check", new)
     assert done.returncode == 0, done.stderr
 
 
@@ -250,7 +211,7 @@ def test_bad_settings_are_exit_code_2(new: Path, text: str, message: str) -> Non
 
 @pytest.mark.slow
 def test_list_names_every_case_with_its_source() -> None:
-    done = process("list")
+    done = textmech("list")
     assert done.returncode == 0
     book, _, asked = done.stdout.partition("What people ask")
     assert "four_bar\n" in book
@@ -277,7 +238,7 @@ def test_list_finds_what_a_scene_is_about(word: str, names: set[str]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("engine", ["mujoco", "mujoco.shipped", "pymunk", "pymunk.shipped"])
+@pytest.mark.parametrize("engine", ["mujoco", "pymunk.shipped"])
 def test_show_is_ready_to_paste(engine: str) -> None:
     done = textmech("show", "double_pendulum", "--engine", engine)
     assert done.returncode == 0, done.stderr
@@ -352,3 +313,302 @@ def test_a_file_whose_check_breaks_down_costs_only_itself(
     done = textmech("check", "b.yaml", "a.yaml", "--jobs", 2, folder=tmp_path)
     assert (done.returncode, done.stdout) == (2, "a.yaml: 1 case, no mistakes\n")
     assert "b.yaml: could not be checked: RuntimeError: of ours" in done.stderr
+
+
+# What `textmech run` ends with: a README promises a code for each, and for two at once.
+
+RUN = importlib.import_module("textmech.reports.command.run")
+MISTAKE = Mistake("bad.yaml", 1, 1, "title", "missing key 'title'")
+
+
+def code(verdict: str, *words: str, mistakes: bool = False, module: Any = RUN) -> int:
+    """Of a run with one row and, or not, one file that was left out."""
+    found = Report(comparisons=[replace(row(), verdict=verdict)])
+    found.mistakes = [MISTAKE] if mistakes else []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "looked_at", lambda *_, **__: found)
+        return module.run.main(["swing", *words], standalone_mode=False)
+
+
+@pytest.mark.parametrize("words", [(), ("--json",)])
+@pytest.mark.parametrize("writes", [False, True])
+@pytest.mark.parametrize(
+    ("verdict", "mistakes", "wanted"),
+    [(BEYOND, False, 0), (FAILS, False, 1), (BEYOND, True, 2), (FAILS, True, 2)],
+)
+def test_the_exit_code_says_what_the_readme_promises(
+    tmp_path: Path, words: tuple[str, ...], writes: bool, verdict: str, mistakes: bool, wanted: int
+) -> None:
+    out = ("--out", str(tmp_path / "out")) if writes else ()
+    assert code(verdict, *words, *out, mistakes=mistakes) == wanted
+
+
+@pytest.mark.mutant("exit code 1 where mistakes and FAILS come together")
+def test_a_mistake_outweighs_a_verdict() -> None:
+    was = "BAD_INPUT if mistakes else FAILED if report.fails else 0"
+    other = otherwise(RUN, was, "FAILED if report.fails else BAD_INPUT if mistakes else 0")
+    assert code(FAILS, mistakes=True) == 2
+    assert code(FAILS, mistakes=True, module=other) == 1
+
+
+@pytest.mark.mutant("exit code 0 where reports are written, whatever fails")
+def test_reports_that_are_written_hide_no_verdict(tmp_path: Path) -> None:
+    words = ("--out", str(tmp_path / "out"))
+    other = otherwise(RUN, "if report.fails else 0", "if report.fails and out is None else 0")
+    assert code(FAILS, *words) == 1
+    assert code(FAILS, *words, module=other) == 0
+
+
+def test_what_only_shows_ends_well(tmp_path: Path) -> None:
+    """As reports/README.md says of page."""
+    found = Report(comparisons=[replace(row(), verdict=FAILS)])
+    page = importlib.import_module("textmech.reports.command.page")
+    written = importlib.import_module("textmech.reports.page.page")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page, "looked_at", lambda *_, **__: found)
+        patch.setattr(written, "write_measured", lambda *_, **__: None)
+        words = ["swing", "--out", str(tmp_path / "out")]
+        assert not page.page.main(words, standalone_mode=False)
+
+
+@pytest.mark.parametrize("words", [("run", "--help"), ("show", "four_bar")])
+def test_python_m_textmech_is_the_command(words: tuple[str, ...]) -> None:
+    command = Path(sys.executable).with_name("textmech")
+    said = [
+        subprocess.run([*line, *words], capture_output=True, text=True, check=False)
+        for line in ((command,), (sys.executable, "-m", "textmech"))
+    ]
+    one, other = ((done.returncode, done.stdout, done.stderr) for done in said)
+    assert one == other
+    assert any(one[1:])
+
+
+# `--json`: one document on the output, whatever becomes of the command.
+
+
+def document(*words: object) -> dict[str, Any]:
+    """The output, which is JSON in the strict sense, and nothing else."""
+    done = textmech(*words, "--json")
+
+    def none(name: str) -> None:
+        raise AssertionError(f"{name} is no JSON")
+
+    found = json.loads(done.stdout, parse_constant=none)
+    assert found.get("exit_code", 0) == done.returncode
+    return found
+
+
+@pytest.mark.slow
+def test_a_run_tells_all_its_rows_and_writes_where_it_is_told(new: Path, tmp_path: Path) -> None:
+    places = ("--out", tmp_path / "o", "--keep", tmp_path / "k")
+    found = document("run", new, "--engine", "mujoco.tuned", *places)
+    tables = "summary tolerance convergence steps events reference causes"
+    assert list(found) == f"{tables} warnings mistakes written exit_code".split()
+    assert [row["quantity"] for row in found["tolerance"]] == ["audit", "cart.x", "rod.angle"]
+    line = {"case": "cart", "setting": "mujoco.tuned", "worst": "agrees", "agrees": "tuned 8 ms"}
+    assert found["summary"] == [{**line, "cured": ""}]
+    assert found["written"] == str(tmp_path / "o")
+    assert {row["verdict"] for row in found["reference"]} == {"holds"}
+    assert {file.name for file in (tmp_path / "o").iterdir()} == set(write.FILES)
+    head, *rows = (tmp_path / "k" / "cart.csv").read_text().splitlines()
+    both = [f"{q} {who}" for q in ("cart.x [m]", "rod.angle [rad]")
+            for who in ("reference", "mujoco.tuned.native")]  # fmt: skip
+    others = [f"{pose} reference" for pose in ("cart.y [m]", "cart.angle [rad]", "rod.x [m]")]
+    assert head.split(",") == ["t [s]", *both, *others, "rod.y [m] reference"]
+    assert len(rows) == 6
+    events = (tmp_path / "k" / "cart.events.csv").read_text()
+    assert events == "engine,setting,realised,event,k,time [s],difference [s]\n"
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_mistakes_are_in_it_with_their_places(command: str, new: Path) -> None:
+    new.write_text(NEW.replace("mass: 2.0", "mass: -2.0"), encoding="utf-8")
+    found = document(command, new)
+    (mistake,) = found.get("mistakes") or found["files"][0]["mistakes"]
+    assert mistake["file"] == str(new)
+    assert (mistake["line"], mistake["column"]) == (5, 20)
+    assert mistake["field"] == "scene.bodies.cart.block.mass"
+    assert found["exit_code"] == 2
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("run", "four_bra"),
+        ("advise", "four_bra"),
+    ],
+)
+def test_a_wrong_word_is_in_it(words: tuple[str, ...]) -> None:
+    (mistake,) = document(*words)["mistakes"]
+    assert "did you mean" in mistake["what"]
+
+
+def test_check_tells_each_file(new: Path) -> None:
+    found = document("check", new)
+    nothing = {"mistakes": [], "fails": [], "because": [], "warnings": []}
+    assert found == {"files": [{"file": str(new), "cases": ["cart"], **nothing}], "exit_code": 0}
+
+
+@pytest.mark.slow
+def test_list_tells_every_case_and_its_group() -> None:
+    cases = {case["name"]: case for case in document("list")["cases"]}
+    assert cases["sliding_block.below"]["group"] == "textbook"
+    assert cases["four_bar"]["source"] == "figure 2.3, (2.14), (2.60)"
+    asked = {name for name, case in cases.items() if case["group"] == "questions"}
+    assert {name.partition(".")[0] for name in asked} == set(questions())  # with its variants
+    assert all("#" in cases[name]["thread"] for name in asked)
+
+
+def test_what_json_has_not_is_null(capsys: pytest.CaptureFixture[str]) -> None:
+    write_document(
+        {"rows": [{"error": inf, "ratio": nan}, {"error": 1e300}], "title": "→ \x1b[31m"}
+    )
+    out = capsys.readouterr().out
+    assert out.isascii()
+    assert json.loads(out) == {
+        "rows": [{"error": None, "ratio": None}, {"error": 1e300}],
+        "title": "→ \x1b[31m",
+    }
+
+
+LOUD = """\
+import os
+import subprocess
+import sys
+import sys
+
+from textmech.engines.pymunk import Pymunk
+from textmech.reports import cli
+
+quiet = Pymunk.run
+
+
+def run(*args, **kwargs):
+    print("a banner")
+    os.write(1, b"and more\\n")  # as a library in C does
+    return quiet(*args, **kwargs)
+
+
+Pymunk.run = run
+cli.main()
+"""
+
+
+@pytest.mark.mutant("what an engine prints as it runs stands in the document")
+@pytest.mark.slow
+def test_what_an_engine_prints_is_not_in_it(new: Path) -> None:
+    words = ["run", str(new), "--engine", "pymunk.shipped", "--json", "--no-cache"]
+    done = subprocess.run(
+        [sys.executable, "-c", LOUD, *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["tolerance"]
+    assert "a banner\n" in done.stderr
+    assert "and more\n" in done.stderr
+
+
+# What goes through the floor on which its neighbours stand is told in one line, and goes on.
+
+HEAD = "title: What no contact names\n"
+DOMINO = """\
+scene:
+  bodies: {box: {block: {mass: 1, width: 0.1, height: 0.4}}}
+  contacts: {right: {between: [box.lower_right, ground.floor], friction: 1}MORE}
+initial: {box: {x: 0, angle: 0, on: lower_right, omega: -4}}
+allow: {box.angle: 1.0e-3}
+"""
+STACKED = """\
+scene:
+  bodies:
+    base: {block: {mass: 5, width: 1, height: 0.2}}
+    box: {block: {mass: 1, width: 0.1, height: 0.4}}
+  contacts:
+    bl: {between: [base.lower_left, ground.floor], friction: 1}
+    br: {between: [base.lower_right, ground.floor], friction: 1}
+    right: {between: [box.lower_right, base.top], friction: 1}
+initial: {base: {x: 0, angle: 0, on: [lower_left, lower_right]}, box: {x: 0, y: 0.4, angle: 0}}
+allow: {box.angle: 1.0e-3}
+"""
+SPACE = """\
+scene:
+  space: 3
+  bodies: {box: {block: {mass: 1, size: [0.2, 0.2, 0.4]}, points: {tip: [0, 0, -0.2]}}}
+  contacts: {foot: {between: [box.tip, ground.floor], friction: 9, ideal: pivot}}
+initial: {box: {x: 0, y: 0, z: 0.2, attitude: {axis: [0, 0, 1], angle: 0}, omega: [0.5, 0, 0]}}
+allow: {box.attitude: 1.0e-3}
+"""
+LENGTH = {DOMINO: 0.5, STACKED: 0.1, SPACE: 0.1}
+
+
+def told(text: str, more: str = "") -> list[str]:
+    case = scenes.typed_case(text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
+    return [*through(case.scene, solve(case).trajectory)]
+
+
+@pytest.mark.parametrize(
+    ("text", "begins"),
+    [
+        (DOMINO, "box.upper_left goes 409 mm deep into the floor, which it enters by t = 0.36 s"),
+        (STACKED, "box.lower_left goes 4.45 mm deep into the top of base"),
+        (SPACE, "box.corner"),
+    ],
+)
+def test_the_deepest_point_is_told(text: str, begins: str) -> None:
+    (warning,) = told(text)
+    assert warning.startswith(begins)
+    assert warning.endswith("no contact names it, so nothing holds it there")
+
+
+def test_how_deep_is_what_the_angle_says() -> None:
+    """A domino about its right corner at φ < 0: its left upper one is h cos φ − w sin φ high."""
+    case = scenes.typed_case(DOMINO.replace("MORE", ""), tail=scenes.tail(0.5, 26))
+    motion = solve(case).trajectory
+    angle = motion.states["box"][:, 2]
+    above = 0.4 * np.cos(angle) - 0.1 * np.sin(angle)
+    (warning,) = through(case.scene, motion)
+    assert f"goes {-1e3 * min(above):.3g} mm deep" in warning
+
+
+def test_nothing_is_told_of_what_is_named() -> None:
+    names = ("lower_left", "upper_right", "upper_left")
+    more = "".join(f", {n}: {{between: [box.{n}, ground.floor], friction: 1}}" for n in names)
+    case = DOMINO.replace("allow:", "events: {falls: {upper_right.gap: falls to zero}}\nallow:")
+    LENGTH[case] = 0.5
+    assert told(case, more) == []
+
+
+@pytest.mark.slow
+def test_no_shipped_case_is_warned_of() -> None:
+    for name, case in scenes.SHIPPED.items():
+        if case.scene.contacts or case.scene.pairs:
+            assert [*through(case.scene, scenes.solved(name).trajectory)] == [], name
+
+
+@pytest.fixture
+def domino(tmp_path: Path) -> Path:
+    file = tmp_path / "domino.yaml"
+    tail = scenes.tail(0.5, 26).replace("5e-05", "1e-3")
+    file.write_text(HEAD + DOMINO.replace("MORE", "") + tail, encoding="utf-8")
+    return file
+
+
+def test_check_and_python_warn_and_refuse_nothing(domino: Path) -> None:
+    done = textmech("check", domino)
+    assert done.returncode == 0
+    warning, sound = done.stdout.splitlines()
+    assert warning.startswith(f"{domino}: warning: box.upper_left goes 409 mm deep")
+    assert sound == f"{domino}: 1 case, no mistakes"
+    (file,) = json.loads(textmech("check", domino, "--json").stdout)["files"]
+    (known,) = file["warnings"]
+    assert known["case"] == "domino"
+    assert solved(str(domino)).warnings == (known["what"],)
+
+
+@pytest.mark.mutant("a corner that goes through the floor is told of none")
+def test_a_warning_that_is_left_out_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(unnamed, "DEEP", math.inf)
+    assert told(DOMINO) == []

@@ -1,7 +1,22 @@
-"""The committed reports are what the suite measures now, and the READMEs show them."""
+"""The committed reports are what the suite measures now, cover the chapter and got no worse."""
 
+import ast
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
 import pytest
+from given import scenes
+from given.lines import row as typed_row
+from given.otherwise import otherwise
+from given.tree import ROOT
 
+from textmech.cases.case import Case
+from textmech.cases.load import load
+from textmech.reference.coverage import equations
 from textmech.reports.batch import suite
 from textmech.reports.batch.advice.advice_rows import Requirement
 from textmech.reports.batch.advice.advice_rows import rows as rows_of
@@ -9,11 +24,33 @@ from textmech.reports.batch.advice.advise import advised
 from textmech.reports.batch.cache.store import usable
 from textmech.reports.batch.selection import choose_cases, choose_engines
 from textmech.reports.batch.suite import Report
+from textmech.reports.compare.judge.compare import compare
 from textmech.reports.compare.judge.metric import EPSILON
-from textmech.reports.data.row import Advice, Cause, Certificate, Comparison, Instant, Rungs
-from textmech.reports.output import write
+from textmech.reports.compare.trial.trial import Trial
+from textmech.reports.data import coverage as covering
+from textmech.reports.data import promised
+from textmech.reports.data.coverage import coverage
+from textmech.reports.data.coverage import otherwise as elsewhere
+from textmech.reports.data.promised import answered, ships, unkept
+from textmech.reports.data.row import (
+    AGREES,
+    BEYOND,
+    DEVIATES,
+    DIVERGED,
+    FAILS,
+    Advice,
+    Cause,
+    Certificate,
+    Comparison,
+    Instant,
+    Rungs,
+)
+from textmech.reports.output import committed, write
+from textmech.reports.output.committed import Key
 from textmech.reports.show import readme
 from textmech.reports.system import pool
+
+# The committed reports are what the suite measures now, and the READMEs show them.
 
 QUARTER = 0.25  # what another compiler or processor may change of a number above the floor
 AFTER_EVENTS = 2 / 3  # a factor of three: which step sees an event first may change
@@ -38,8 +75,10 @@ ORDER = 0.05  # what the noise of neighbouring rungs may do to it, beside a quar
 
 @pytest.mark.slow
 def test_causes_are_current() -> None:
-    """Of one case in the plane and one with a contact: the same cures, of nearly the same size."""
-    cases, engines = choose_cases(["four_bar", "sliding_block.below"]), choose_engines([], [])
+    """Of one that swings, a loop, a contact and dry friction: the same cures, of nearly the same
+    size."""
+    names = ["bar_pendulum", "four_bar", "sliding_block.below", "growing_force"]
+    cases, engines = choose_cases(names), choose_engines([], [])
     found = suite.measure(
         cases,
         engines,
@@ -49,8 +88,9 @@ def test_causes_are_current() -> None:
         causes=True,
         store=usable(),
     ).causes
-    names = {case.name for case in cases}
-    committed = [c for c in write.read(write.HERE / "causes.csv", Cause) if c.case in names]
+    asked = {engine.name for engine in engines}  # and not of the book's approximations
+    read = write.read(write.HERE / "causes.csv", Cause)
+    committed = [c for c in read if c.case in names and c.engine in asked]
     assert {cure(cause) for cause in found} == {cure(cause) for cause in committed}
 
 
@@ -61,7 +101,8 @@ def cure(cause: Cause) -> tuple[str, ...]:
 
 @pytest.mark.slow
 def test_advice_is_current() -> None:
-    cases = choose_cases(["bar_pendulum", "four_bar", "sliding_block.below"])
+    names = ["bar_pendulum", "four_bar", "sliding_block.below", "growing_force", "heavy_top.cusp"]
+    cases = choose_cases([*names, "planar_bodies"])
     asked, engines = Requirement(None, 2.0), choose_engines([], ["shipped"])
     with advised(cases, engines, asked, progress=lambda *_: None, store=usable()) as found:
         rows = {(one.case, one.engine, one.want): one for each in found for one in rows_of(each)}
@@ -175,3 +216,263 @@ def near(now: float | None, before: float | None, floor: float, spread: float = 
     if now is None or before is None:
         return now is before
     return abs(now - before) <= spread * max(abs(now), abs(before)) + max(floor, EPSILON)
+
+
+# What was committed is not lost: tuned rows have a bar near it, and none gets worse unnoticed.
+
+Make = Callable[..., Trial]
+KEY: Key = ("moving", "mujoco", "tuned", "native", "ball.x")
+NOTHING = Comparison(**{field.name: None for field in fields(Comparison)})  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def as_shipped(moving: Case, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """The free body's case as a shipped one, with a committed row of the tuned ball."""
+    monkeypatch.setattr(committed, "is_shipped", lambda file: file == moving.source.file)
+
+    def with_row(**said: Any) -> None:
+        usual = {"version": "4.0.0", "step": 1e-3, "error": 1e-3, "verdict": AGREES}
+        row = replace(NOTHING, **{**usual, **said})
+        monkeypatch.setattr(committed, "rows", lambda: {KEY: row})
+
+    return with_row
+
+
+def tuned(made: Trial) -> Any:
+    return next(row for row in compare(made).rows if row.quantity == "ball.x")
+
+
+@pytest.mark.parametrize(("before", "lost"), [(1e-3, False), (1.1e-4, False), (0.9e-4, True)])
+def test_a_tuned_row_keeps_ten_times_what_was_committed(
+    trial: Make, moving: Case, as_shipped: Callable[..., None], before: float, lost: bool
+) -> None:
+    as_shipped(error=before)
+    found = tuned(trial(rate=1.0))  # 1e-3 off, of 1e-2 allowed
+    assert found.verdict == AGREES  # no verdict depends on an older run
+    words = "0.001 is above 10 × the committed 9e-05" if lost else ""
+    assert committed.worse(moving, found) == words
+
+
+def test_what_was_nothing_may_be_rounding_and_no_more(
+    trial: Make, moving: Case, as_shipped: Callable[..., None]
+) -> None:
+    as_shipped(error=0.0)
+    assert not committed.worse(moving, tuned(trial(rate=0.0, model=1e-12)))
+    assert committed.worse(moving, tuned(trial(rate=0.0, model=1e-8)))
+
+
+@pytest.mark.parametrize("other", [{"version": "3.3.7"}, {"step": 2e-3}])
+def test_another_question_has_another_bar(
+    trial: Make, moving: Case, as_shipped: Callable[..., None], other: dict[str, Any]
+) -> None:
+    as_shipped(error=1e-6, **other)
+    assert not committed.worse(moving, tuned(trial()))
+
+
+def test_a_case_of_the_same_name_elsewhere_is_another(
+    trial: Make, moving: Case, as_shipped: Callable[..., None]
+) -> None:
+    as_shipped(error=1e-6)
+    other = replace(moving, source=replace(moving.source, file="/elsewhere/moving.yaml"))
+    assert committed.worse(moving, tuned(trial()))
+    assert not committed.worse(other, tuned(trial(case=other)))
+
+
+@pytest.mark.parametrize(
+    ("before", "now", "lost"),
+    [
+        (AGREES, "refused", True),
+        (AGREES, BEYOND, True),
+        (DEVIATES, BEYOND, True),
+        (BEYOND, DIVERGED, True),
+        (BEYOND, AGREES, False),
+        ("refused", AGREES, False),
+        (BEYOND, BEYOND, False),
+    ],
+)
+def test_a_worse_verdict_is_a_row_that_got_worse(
+    trial: Make, moving: Case, as_shipped: Callable[..., None], before: str, now: str, lost: bool
+) -> None:
+    as_shipped(verdict=before)
+    row = replace(tuned(trial()), verdict=now)
+    assert bool(committed.worse(moving, row)) == lost
+
+
+def test_a_finding_that_grew_tenfold_got_worse(
+    trial: Make, moving: Case, as_shipped: Callable[..., None]
+) -> None:
+    as_shipped(verdict=BEYOND, error=0.1)
+    row: Comparison = replace(tuned(trial()), verdict=BEYOND, error=0.9)
+    assert committed.worse(moving, row) == ""
+    worse = committed.worse(moving, replace(row, error=1.1))
+    assert worse == "1.1 is above 10 × the committed 0.1"
+    assert committed.worse(moving, replace(row, error=float("nan"))) != ""
+
+
+# Every item of the chapter has a case that covers it, a test that states it, or a reason.
+
+# Items that nobody covers yet. One that is covered must be struck off here.
+PICTURES = ("a photograph of ", "a sketch of ")
+FILE = re.compile(r"tests/[\w/]+\.py")
+
+
+def open_items(table: pd.DataFrame) -> set[tuple[str, str]]:
+    """By kind and number, what neither a case nor a declared word covers."""
+    left = table[(table.cases == "") & (table.otherwise == "")]
+    return set(zip(left.kind, left.number.str.strip("()"), strict=True))
+
+
+@pytest.fixture(scope="module")
+def table() -> pd.DataFrame:
+    """Of the shipped cases, solved now."""
+    executed = {name: set(scenes.solved(name).equations) for name in scenes.EVERY}
+    return coverage(list(scenes.EVERY.values()), executed)
+
+
+@pytest.mark.slow
+def test_nothing_else_is_open(table: pd.DataFrame) -> None:
+    assert open_items(table) == set()
+
+
+@pytest.mark.slow
+def test_what_a_case_covers_needs_no_other_word(table: pd.DataFrame) -> None:
+    both = table[(table.cases != "") & (table.otherwise != "")]
+    assert list(zip(both.kind, both.number, strict=True)) == []
+
+
+@pytest.mark.slow
+def test_an_item_that_loses_its_case_is_seen() -> None:
+    lost = {n: c for n, c in scenes.EVERY.items() if n != "four_bar"}
+    executed = {name: set(scenes.solved(name).equations) for name in lost}
+    assert open_items(coverage(list(lost.values()), executed)) == {("figure", "2.3")}
+
+
+def test_an_item_that_loses_its_word_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    said = elsewhere()
+    del said["equation", "2.42"]
+    monkeypatch.setattr(covering, "otherwise", lambda: said)
+    found = open_items(coverage([], {}))
+    assert ("equation", "2.42") in found
+    assert ("equation", "2.43") not in found
+
+
+def stated(file: str) -> Iterator[str]:
+    """The equations that open the docstrings of a file's tests."""
+    for node in ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
+            yield from equations(ast.get_docstring(node))
+
+
+@pytest.mark.parametrize(("kind", "number"), elsewhere())
+def test_a_declared_test_states_the_equation(kind: str, number: str) -> None:
+    what = elsewhere()[kind, number]
+    if kind == "equation":
+        assert FILE.fullmatch(what)
+        assert number in set(stated(what))
+    else:
+        assert what.startswith(PICTURES)
+
+
+def test_every_item_of_the_chapter_has_a_row() -> None:
+    table = coverage([], {})
+    assert list(table.columns) == ["kind", "number", "cases", "otherwise"]
+    counts = {kind: int(n) for kind, n in table.kind.value_counts().items()}
+    assert counts == {"equation": 98, "example": 4, "exercise": 6, "figure": 32}
+    known = set(zip(table.kind, table.number.str.strip("()"), strict=True))
+    assert set(elsewhere()) <= known
+
+
+# Whose rows may fail: what somebody has promised, and not what is only asked.
+
+BROKEN = replace(
+    typed_row("tuned", 1.35),
+    verdict=FAILS,
+    because="0.0135 is above allow 0.01; the step: order 2.0",
+)
+
+
+@pytest.fixture
+def asked(tmp_path: Path) -> Case:
+    """A user's own copy of a case, without what ours promises."""
+    text = Path(scenes.EVERY["bar_pendulum"].source.file).read_text(encoding="utf-8")
+    file = tmp_path / "bar_pendulum.yaml"
+    file.write_text(text, encoding="utf-8")
+    (case,) = load(file)
+    return replace(case, reach={}, deviates={})
+
+
+def test_a_copy_of_a_case_is_the_users_own(asked: Case) -> None:
+    assert ships(scenes.EVERY["bar_pendulum"])
+    assert not ships(asked)
+
+
+@pytest.mark.mutant("a users question fails")
+def test_a_recipe_of_ours_that_misses_is_no_failure_of_the_users(asked: Case) -> None:
+    ours = scenes.EVERY["bar_pendulum"]
+    assert answered(ours, [BROKEN]) == [BROKEN]
+    (told,) = answered(asked, [BROKEN])
+    assert (told.verdict, told.because) == (BEYOND, "the step: order 2.0")
+    was = "return [*rows] if ships(case) else"
+    always = otherwise(promised, was, "return [*rows] if True else")
+    assert always.answered(asked, [BROKEN]) == [BROKEN]
+
+
+def test_what_diverges_is_told_as_it_is(asked: Case) -> None:
+    gone = replace(BROKEN, error=None, ratio=None, because=f"{DIVERGED}: Nan in QACC")
+    (told,) = answered(asked, [gone])
+    assert (told.verdict, told.because) == (DIVERGED, "Nan in QACC")
+
+
+@pytest.mark.parametrize(
+    "one",
+    [
+        replace(BROKEN, setting="shipped"),
+        replace(BROKEN, because="2e-3 is above reach 1e-6; the step"),
+        replace(BROKEN, because="the reference is not certified"),
+        replace(BROKEN, quantity="audit", because="mass: 2 in place of 1"),
+        replace(BROKEN, error=None, because="crashed: it ended by signal 11"),
+    ],
+    ids=lambda one: one.because[:20] or one.setting,
+)
+def test_what_is_no_question_fails(asked: Case, one: Comparison) -> None:
+    assert answered(asked, [one]) == [one]
+
+
+def test_what_its_author_promises_fails(asked: Case) -> None:
+    name = BROKEN.quantity
+    assert answered(replace(asked, reach={BROKEN.engine: {name: 1e-6}}), [BROKEN]) == [BROKEN]
+    limit = replace(asked, reach={f"{BROKEN.engine}.limit": {name: 1e-6}})
+    assert answered(limit, [BROKEN]) == [BROKEN]
+    other = replace(asked, reach={"another": {name: 1e-6}})
+    assert answered(other, [BROKEN])[0].verdict == BEYOND
+
+
+def test_the_nearest_is_named(asked: Case) -> None:
+    rows = [
+        replace(typed_row("tuned", 1.35, verdict=BEYOND), case=asked.name, step=1e-4),
+        replace(typed_row("shipped", 220.0, verdict=BEYOND), case=asked.name),
+    ]
+    (line,) = unkept(asked, rows)
+    engine, name = rows[0].engine, rows[0].quantity
+    nearest = f"{engine}.tuned, {name} ×1.4 at 0.0001 s"
+    told = f"no setting keeps it at the judged step; nearest: {nearest}"
+    assert line == f"{asked.name} in {engine}: {told}"
+    assert not [*unkept(asked, rows[1:])]  # nobody has tried
+    kept = [rows[0], replace(rows[1], verdict=AGREES)]
+    assert not [*unkept(asked, kept)]
+    assert not [*unkept(scenes.EVERY["bar_pendulum"], rows)]
+    gone = replace(rows[1], verdict=FAILS, ratio=0.5, because="the declared deviation is gone")
+    assert not [*unkept(asked, [rows[0], gone])]  # the tolerance is kept
+
+
+@pytest.mark.mutant("a promise of a row that is not there")
+def test_a_reach_of_no_row_is_told(asked: Case) -> None:
+    rows = [replace(typed_row("tuned", 0.5, verdict=AGREES), case=asked.name)]
+    engine, bound = rows[0].engine, {rows[0].quantity: 1e-6}
+    promised = replace(asked, reach={f"{engine}.law": bound, engine: bound, "another": bound})
+    (line,) = unkept(promised, rows)
+    what = f"reach.{engine}.law is held by no row: {engine} does not run the scene so"
+    assert line == f"{asked.name}: {what}"
+    lawful = replace(rows[0], realised="law")
+    assert not [*unkept(promised, [*rows, lawful])]
+    assert [*unkept(promised, [lawful])] == [line.replace(f"{engine}.law", engine)]

@@ -3,15 +3,15 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from given.scenes import cases_of, scene
 
+from textmech.cases.case import Case
 from textmech.cases.fields.event import Event
-from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.quantity import SIDES, AtEvent, Side, at_event
@@ -206,38 +206,27 @@ def test_a_line_to_what_has_ended_would_be_seen(monkeypatch: pytest.MonkeyPatch)
     assert found == pytest.approx(0.401)
 
 
-BOUNCES = """\
-title: A particle that bounces
-scene:
-  bodies: {bob: {particle: {mass: 2.0}}}
-  contacts: {touch: {between: [bob, ground.floor], friction: 0, restitution: 0.5}}
-initial: {bob: {x: 0, y: 1, vx: 1, vy: 0}}
-events:
-  lands: {touch.gap: falls to zero}
-  tops: {bob.vy: falls to zero}
-  passes: {bob.y: {falls to: 0.4}}
-duration: 0.8
-samples: 11
-tube: 1 ms
-allow: {bob.x: 1.0e-3, NAMES}
-"""
+def bouncing(*names: str, e: float = 0.5) -> Case:
+    """A particle that bounces, of which these are asked."""
+    bounds = {name: 0.5 if name.endswith("count") else 1e-3 for name in names}
+    changes = {
+        "events": {"passes": {"ball.y": {"falls to": 0.4}}},
+        "duration": 0.8,
+        "samples": 11,
+        "tube": "1 ms",
+        "allow": bounds,
+    }
+    return scene("bouncing_particle", changes, m=2, vx=1, e=e)
 
 
-@pytest.fixture
-def bouncing(tmp_path: Path) -> Callable[[str], Any]:
-    def case(names: str, restitution: float = 0.5) -> Any:
-        path = tmp_path / "bounces.yaml"
-        of = BOUNCES.replace("restitution: 0.5", f"restitution: {restitution}")
-        path.write_text(of.replace("NAMES", names))
-        (found,) = load(path)
-        return found
-
-    return case
-
-
-def test_the_reference_of_a_bounce(bouncing: Callable[[str], Any]) -> None:
-    names = ("lands.bob.vy.before", "lands.bob.vy.after", "passes.bob.vy", "passes.energy.kinetic")
-    case = bouncing(", ".join(f"{name}: 1.0e-3" for name in names))
+def test_the_reference_of_a_bounce() -> None:
+    names = (
+        "lands.ball.vy.before",
+        "lands.ball.vy.after",
+        "passes.ball.vy",
+        "passes.energy.kinetic",
+    )
+    case = bouncing(*names)
     motion = solve(case).trajectory
     assert mistaken(case, motion) == []
     assert motion.record is not None
@@ -253,20 +242,20 @@ def test_the_reference_of_a_bounce(bouncing: Callable[[str], Any]) -> None:
     assert [found[name] for name in names] == pytest.approx(exact, rel=1e-11)
 
 
-def test_a_state_at_what_never_happens_is_a_mistake(bouncing: Callable[[str], Any]) -> None:
+def test_a_state_at_what_never_happens_is_a_mistake() -> None:
     """The particle may land after the end; then there is no speed with which it lands."""
-    short = replace(bouncing("lands.bob.vy.after: 1.0e-3"), duration=0.2)
+    short = replace(bouncing("lands.ball.vy.after"), duration=0.2)
     events = {"lands": short.events["lands"]}
     short = replace(short, events=events)
     (mistake,) = mistaken(short, solve(short).trajectory)
-    assert mistake.where == "allow.lands.bob.vy.after"
+    assert mistake.where == "allow.lands.ball.vy.after"
     assert mistake.what == "never happens in 0.2 s: nothing is compared"
-    count = replace(short, allow={"bob.x": 1e-3, "lands.count": 0.5})
+    count = replace(short, allow={"ball.x": 1e-3, "lands.count": 0.5})
     assert mistaken(count, solve(count).trajectory) == []
 
 
 @pytest.mark.parametrize("e", [pytest.param(0.9, marks=pytest.mark.slow), 0.5, 0.1, 0.02, 1e-3])
-def test_what_happens_without_end_has_no_count(bouncing: Callable[..., Any], e: float) -> None:
+def test_what_happens_without_end_has_no_count(e: float) -> None:
     """All bounces from 1 m end after (1 + e)/(1 - e) √(2/g), and the apexes between them with them.
 
     0.4 m are passed on the way down, and again after each of the bounces that are high enough.
@@ -274,8 +263,8 @@ def test_what_happens_without_end_has_no_count(bouncing: Callable[..., Any], e: 
     fall = np.sqrt(2 / 9.80665)
     end = (1 + e) / (1 - e) * fall
     for duration, counts in ((1.3 * end, False), ((1 + 1.5 * e) * fall, True)):
-        names = "lands.count: 0.5, tops.count: 0.5, passes.count: 0.5"
-        case = replace(bouncing(names, e), duration=duration)
+        counts_of = ("lands.count", "tops.count", "passes.count")
+        case = replace(bouncing(*counts_of, e=e), duration=duration)
         found = mistaken(case, solve(case).trajectory)
         endless = [] if counts else ["allow.lands.count", "allow.tops.count"]
         assert [mistake.where for mistake in found] == endless
@@ -284,26 +273,26 @@ def test_what_happens_without_end_has_no_count(bouncing: Callable[..., Any], e: 
 
 @pytest.mark.slow
 @pytest.mark.mutant("a pile of events that is not told")
-def test_a_pile_that_is_not_told_would_be_seen(bouncing: Callable[[str], Any]) -> None:
-    case = replace(bouncing("lands.count: 0.5"), duration=1.6)
+def test_a_pile_that_is_not_told_would_be_seen() -> None:
+    case = replace(bouncing("lands.count"), duration=1.6)
     case = replace(case, events={"lands": case.events["lands"]})
     motion = replace(solve(case).trajectory, endless=())
     assert mistaken(case, motion) == []
 
 
-def test_a_contact_that_lands_is_named_by_its_zero(bouncing: Callable[[str], Any]) -> None:
-    case = bouncing("lands.time: 1.0e-3")
+def test_a_contact_that_lands_is_named_by_its_zero() -> None:
+    case = bouncing("lands.time")
     other = replace(case, events={"lands": Event("touch.gap", "falls to zero", 0.1)})
     with pytest.raises(CaseError, match="starts 1 m above the floor"):
         solve(other)
 
 
-def test_a_jump_needs_a_side(bouncing: Callable[[str], Any]) -> None:
-    case = bouncing("lands.bob.vx: 1.0e-3, lands.bob.vy: 1.0e-3")
+def test_a_jump_needs_a_side() -> None:
+    case = bouncing("lands.ball.vx", "lands.ball.vy")
     (mistake,) = mistaken(case, solve(case).trajectory)
-    assert str(mistake.where) == "allow.lands.bob.vy"
+    assert str(mistake.where) == "allow.lands.ball.vy"
     assert mistake.what == (
-        "jumps there, from -4.42869 to 2.21435: say lands.bob.vy.before or lands.bob.vy.after"
+        "jumps there, from -4.42869 to 2.21435: say lands.ball.vy.before or lands.ball.vy.after"
     )
 
 
@@ -311,14 +300,14 @@ TURNED = """\
 title: A particle is pushed back, and then forth
 scene:
   gravity: none
-  bodies: {bob: {particle: {mass: 1.0}}}
-  forces: {push: {push: bob.center, table: {along: [1, 0], times: [0.4, 0.5], values: [-1, 5]}}}
-initial: {bob: {x: 0, y: 0, vx: 1.0, vy: 0}}
-events: {slow: {bob.vx: {falls to: 0.605}}}
+  bodies: {ball: {particle: {mass: 1.0}}}
+  forces: {push: {push: ball.center, table: {along: [1, 0], times: [0.4, 0.5], values: [-1, 5]}}}
+initial: {ball: {x: 0, y: 0, vx: 1.0, vy: 0}}
+events: {slow: {ball.vx: {falls to: 0.605}}}
 duration: 1.0
 samples: 6
 step: {mujoco: 1.0e-3, pymunk: 1.0e-3}
-allow: {slow.time: 1.0e-2, slow.bob.x: 1.0e-2}
+allow: {slow.time: 1.0e-2, slow.ball.x: 1.0e-2}
 """
 BEFORE = 0.605, 0.395, 0.395 - 0.395**2 / 2
 S = (1 - math.sqrt(0.52)) / 60  # s behind the corner, where 0.004 m/s are lost
@@ -328,13 +317,11 @@ BEHIND = 0.596, 0.4 + S, 0.32 + 0.6 * S - S**2 / 2 + 10 * S**3
 @pytest.mark.mutant("a quantity at an event read from a curve through both sides of a corner")
 @pytest.mark.parametrize(("slow", "t", "x"), [BEFORE, BEHIND], ids=["before", "behind"])
 def test_a_state_at_an_event_beside_a_corner_is_read_from_its_side(
-    slow: float, t: float, x: float, tmp_path: Path
+    slow: float, t: float, x: float
 ) -> None:
     """v = 1 − t until 0.4 s, and 0.605 at 0.395 s; v = 0.6 − s + 30 s² behind it."""
-    path = tmp_path / "turned.yaml"
-    path.write_text(TURNED.replace("0.605", repr(slow)))
-    (case,) = load(path)
-    record, at = solve(case).trajectory.record, at_event("slow.bob.x", case.events)
+    (case,) = cases_of(TURNED.replace("0.605", repr(slow)))
+    record, at = solve(case).trajectory.record, at_event("slow.ball.x", case.events)
     assert record is not None
     assert at is not None
     times = reference_events(case.scene, record, case.events["slow"])
@@ -359,11 +346,9 @@ TOP = 4.42869**2 / 2 / 9.80665
 @pytest.mark.parametrize("samples", [4, 10, 31])  # with 31 a sample is 1 ms from the top
 @pytest.mark.parametrize("below", [1e-6, 1e-8, 1e-10, 0.0, -1e-10, -1e-8])
 def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
-    below: float, samples: int, tmp_path: Path
+    below: float, samples: int
 ) -> None:
-    path = tmp_path / "flight.yaml"
-    path.write_text(FLIGHT.format(height=TOP - below, samples=samples))
-    (case,) = load(path)
+    (case,) = cases_of(FLIGHT.format(height=TOP - below, samples=samples))
     motion = solve(case).trajectory
     assert motion.record is not None
     found = reference_events(case.scene, motion.record, case.events["up"])
@@ -380,12 +365,10 @@ def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
 
 
 @pytest.mark.mutant("what touches the value of an event is none, without a word")
-def test_a_graze_that_is_not_said_is_certified(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_graze_that_is_not_said_is_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reading, "touches", lambda *_: iter(()))
     with pytest.raises(AssertionError):
-        test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10, tmp_path)
+        test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10)
 
 
 PUSHED = """\
@@ -409,11 +392,9 @@ PULSE = "forces: {p: {push: b.center, pulse: {amplitude: [-1, 0], from: 0.25, un
 TABLE = "drive: {r.speed: {table: {times: [0, 0.5, 1, 1.5, 2], values: [1, 0, 0, 1, -1]}}}"
 
 
-def pushed(tmp_path: Path, acts: str, speed: str, rule: str, samples: int = 21) -> Any:
-    path = tmp_path / "pushed.yaml"
+def pushed(acts: str, speed: str, rule: str, samples: int = 21) -> Any:
     text = PUSHED.format(acts=acts, speed=speed, rule=rule, samples=samples)
-    path.write_text(text.replace(", speed: none", ""), encoding="utf-8")
-    (case,) = load(path)
+    (case,) = cases_of(text.replace(", speed: none", ""))
     return case, solve(case).trajectory
 
 
@@ -432,35 +413,21 @@ def pushed(tmp_path: Path, acts: str, speed: str, rule: str, samples: int = 21) 
     ],
 )
 def test_what_a_law_sets_off_or_stops_is_an_event(
-    acts: str, speed: str, rule: str, times: list[float], samples: int, tmp_path: Path
+    acts: str, speed: str, rule: str, times: list[float], samples: int
 ) -> None:
-    case, motion = pushed(tmp_path, acts, speed, rule, samples)
+    case, motion = pushed(acts, speed, rule, samples)
     found = reference_events(case.scene, motion.record, case.events["it"])
     assert found.tolist() == pytest.approx(times, abs=1e-12)
     assert mistaken(case, motion) == []
 
 
 @pytest.mark.slow
-def test_what_comes_at_the_last_instant_is_said_to(tmp_path: Path) -> None:
+def test_what_comes_at_the_last_instant_is_said_to() -> None:
     """v = 1 − t/2; and a ball that lands at 1 s: by h = v t + g t²/2."""
     slows = "forces: {p: {push: b.center, constant: [-0.5, 0]}}"
-    (mistake,) = mistaken(*pushed(tmp_path, slows, "1", "falls to zero"))
+    (mistake,) = mistaken(*pushed(slows, "1", "falls to zero"))
     assert mistake.what.startswith("comes at the last instant, 2 s: whether it still happens")
-    text = """\
-title: A ball that lands at the end
-source: {equations: ["2.60"]}
-scene:
-  bodies: {b: {particle: {mass: 1.0}}}
-  contacts: {c: {between: [b, ground.floor], friction: 0, restitution: 0.5}}
-initial: {b: {x: 0, y: 5.903325, vx: 1, vy: -1}}
-events: {lands: {c.gap: falls to zero}}
-duration: 1.0
-samples: 26
-step: {mujoco: 0.005, pymunk: 0.005}
-allow: {b.x: 1.0e-3, lands.time: 1.0e-3}
-"""
-    path = tmp_path / "lands.yaml"
-    path.write_text(text, encoding="utf-8")
-    (case,) = load(path)
+    changes = {"events": {"tops": None}, "allow": {"lands.time": 1e-3}}
+    case = scene("bouncing_particle", changes, y=5.903325, vx=1, vy=-1)
     (mistake,) = mistaken(case, solve(case).trajectory)
     assert mistake.what.startswith("comes at the last instant, 1 s")

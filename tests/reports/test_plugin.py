@@ -2,15 +2,34 @@
 
 import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from types import SimpleNamespace
+from typing import Any, cast
 from xml.etree import ElementTree as ET
 
 import pytest
 from given.inner import inner
+from given.lines import row
+from given.otherwise import otherwise
+from given.pendulum import pendulum
+from given.report_folders import CERTIFICATE
 from given.swing import SWING, swing
 
 from textmech.cases.find import shipped
+from textmech.cases.mistake import Mistake
+from textmech.reports import pytest_plugin
+from textmech.reports.data.row import (
+    AGREES,
+    BEYOND,
+    CRASHED,
+    DEVIATES,
+    DIVERGED,
+    FAILS,
+    REFUSED,
+    Comparison,
+)
+from textmech.reports.output import committed
 from textmech.reports.pytest_plugin import _configured
 
 pytest_plugins = ["pytester"]
@@ -36,7 +55,7 @@ def test_other_projects_may_have_an_engine_option(project: pytest.Pytester) -> N
 
 @pytest.mark.slow
 def test_a_named_file_is_compared(project: pytest.Pytester) -> None:
-    done = project.runpytest_subprocess("swing.yaml", "-v", "--textmech-engine", "mujoco.tuned")
+    done = inner(project, "swing.yaml", "-v", "--textmech-engine", "mujoco.tuned")
     done.assert_outcomes(passed=3)  # the reference, the audit, the angle
     done.stdout.fnmatch_lines(["swing.yaml::swing-mujoco.tuned-rod.angle PASSED*"])
 
@@ -150,13 +169,6 @@ def test_junit_has_a_rows_numbers_as_properties(project: pytest.Pytester) -> Non
 
 
 @pytest.mark.slow
-def test_a_broken_file_costs_itself_alone(project: pytest.Pytester) -> None:
-    project.makefile(".yaml", swing=swing("1.0e-2"), bad="title: [\n")
-    done = inner(project, "bad.yaml", "swing.yaml", "--textmech-engine", "mujoco.tuned")
-    done.assert_outcomes(passed=3, failed=1)
-
-
-@pytest.mark.slow
 def test_a_case_that_is_not_there_does_not_look_like_a_pass(project: pytest.Pytester) -> None:
     done = inner(project, "swing.yaml", "--textmech-case", "swung")
     assert done.ret == pytest.ExitCode.USAGE_ERROR
@@ -260,9 +272,232 @@ def test_it_takes_a_time_limit(project: pytest.Pytester) -> None:
     project.makepyfile(
         "from textmech.reports.system.limit import limit\ndef test_own(): assert limit() == 2.5"
     )
-    done = project.runpytest_subprocess("--textmech-time-limit", "2.5")
-    done.assert_outcomes(passed=1)
+    inner(project, "--textmech-time-limit", "2.5").assert_outcomes(passed=1)
     for word in ("0", "nan", "soon"):
-        done = project.runpytest_subprocess("--textmech-time-limit", word)
+        done = inner(project, "--textmech-time-limit", word)
         assert done.ret == pytest.ExitCode.USAGE_ERROR
         done.stderr.fnmatch_lines([f"*should be a time in s above 0, is '{word}'*"])
+
+
+# What must be red in pytest: a reference, an audit, and a row that got worse.
+
+# `spawn` would lose what a conftest changed: the workers of these runs are forks.
+WORSE = """\
+import multiprocessing
+from dataclasses import fields
+from pathlib import Path
+from mujoco import __version__ as version
+from textmech.reports.data.row import Comparison
+from textmech.reports.output import committed
+multiprocessing.set_start_method("fork", force=True)
+key = ("swing", "mujoco", "shipped", "native", "rod.angle")
+said = dict.fromkeys(field.name for field in fields(Comparison))
+said |= dict(version=version, step=0.002, error=1.0, verdict={verdict!r})
+committed.rows = lambda: {{key: Comparison(**said)}}
+committed.is_shipped = lambda file: Path(file).name == "swing.yaml"
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("verdict", "red"), [("agrees", 1), ("beyond", 0)])
+def test_a_row_that_got_worse_is_red(project: pytest.Pytester, verdict: str, red: int) -> None:
+    project.makefile(".yaml", swing=swing("1.0e-6"))
+    project.makeconftest(WORSE.format(verdict=verdict))
+    done = inner(project, "swing.yaml", "--textmech-engine", "mujoco.shipped")
+    done.assert_outcomes(passed=2, failed=red, xfailed=1 - red)
+    if red:
+        done.stdout.fnmatch_lines(["*committed*"])
+
+
+# The plug-in where a file has mistakes, or asks for endless work.
+
+ONLY = ("--textmech-engine", "mujoco.tuned")
+
+
+@pytest.mark.slow
+def test_a_mistake_that_solving_finds_costs_its_own_file(pytester: pytest.Pytester) -> None:
+    pytester.makefile(".yaml", good=pendulum(), still=pendulum(angle="-90 deg"))
+    done = inner(pytester, "good.yaml", "still.yaml", *ONLY)
+    done.assert_outcomes(passed=3, failed=3)  # each: the reference, the audit, the angle
+    done.stdout.fnmatch_lines(["*still.yaml:11:9: allow.rod.angle: never moves*"])
+
+
+@pytest.mark.slow
+def test_endless_work_is_said_and_allow_long_goes_on(pytester: pytest.Pytester) -> None:
+    pytester.makefile(".yaml", slow=pendulum(step=1e-9))
+    done = inner(pytester, "slow.yaml", *ONLY)
+    done.assert_outcomes(failed=1)
+    done.stdout.fnmatch_lines(["*slow.yaml:10:1: step: *--textmech-allow-long*"])
+    done = inner(pytester, "slow.yaml", "--textmech-allow-long", "--collect-only", "-q", *ONLY)
+    done.stdout.fnmatch_lines(["slow.yaml::slow-mujoco.tuned-rod.angle"])
+
+
+@pytest.mark.slow
+def test_the_settings_of_the_ini_file_may_be_of_another_engine(pytester: pytest.Pytester) -> None:
+    """What its settings are for may be all that is not asked now; who names a file means it."""
+    pytester.makefile(".yaml", good=pendulum(), mine="pymunk: {step: 2.5e-3}\n")
+    pytester.makeini("[pytest]\ntextmech_settings = mine.yaml\n")
+    done = inner(pytester, "good.yaml", "--collect-only", "-q", *ONLY)
+    done.stdout.fnmatch_lines(["good.yaml::good-mujoco.tuned-rod.angle"])
+    done = inner(pytester, "good.yaml", "--textmech-settings", "mine.yaml", *ONLY)
+    done.assert_outcomes(errors=1)
+    done.stdout.fnmatch_lines(["*--textmech-settings: mine.yaml: no chosen engine uses it*"])
+
+
+# What a row is in pytest: passed, failed, or a failure that was expected.
+
+PASSED, FAILED, EXPECTED = "passed", "failed", "xfailed"
+
+
+def ended(module: Any, kind: str, item: Any) -> str:
+    """What pytest calls a test that ends so."""
+    try:
+        getattr(module, kind).runtest(item)
+    except pytest.xfail.Exception:
+        return EXPECTED
+    except module.RowError:
+        return FAILED
+    return PASSED
+
+
+def of_row(
+    found: Comparison, module: Any = pytest_plugin, *, promised: bool = False, lost: str = ""
+) -> str:
+    """A row's own test. lost: what is said of it beside the committed one."""
+    item = SimpleNamespace(
+        row=lambda: found,
+        case=SimpleNamespace(),
+        path=Path("swing.yaml"),
+        place=lambda *_: 1,
+        user_properties=[],
+        promised=promised,
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(committed, "worse", lambda case, row: lost)
+        return ended(module, "ComparisonItem", item)
+
+
+@pytest.mark.mutant("a failed row's path comes before its size")
+@pytest.mark.parametrize(
+    ("found", "line"),
+    [
+        ({"verdict": FAILS}, "×7.92 of 0.01 rad at 2.9 s"),
+        ({"verdict": BEYOND, "when": None}, "×7.92 of 0.01 rad"),
+        ({"verdict": DIVERGED, "ratio": None, "because": "it fell"}, "diverged: it fell"),
+    ],
+)
+def test_a_failure_says_first_how_large_it_is(
+    found: dict[str, Any], line: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For pytest's short summary shows the beginning of the first line alone."""
+    numbers = {"ratio": 7.919, "allowed": 0.01, "unit": "rad", "when": 2.9, "because": ""}
+    told = replace(row(), **{**numbers, **found})
+
+    monkeypatch.setattr(committed, "worse", lambda case, row: "")
+
+    def said(module: Any = pytest_plugin) -> str:
+        item = SimpleNamespace(
+            row=lambda: told, case=SimpleNamespace(), path=Path("a.yaml"), place=lambda *_: 1,
+            user_properties=[], promised=True,
+        )  # fmt: skip
+        with pytest.raises(module.RowError) as error:
+            module.ComparisonItem.runtest(item)
+        return str(error.value).splitlines()[0]
+
+    assert said() == line
+    if told.verdict == FAILS:
+        was = "{_size_text(row)}\\n{place}: {row.quantity}\\n"
+        path = otherwise(pytest_plugin, was, "{place}: {row.quantity}\\n")
+        assert said(path).startswith("a.yaml:1")
+
+
+def of_certificate(verdict: str, module: Any = pytest_plugin) -> str:
+    """The test of a reference of which one of two checks has that verdict."""
+    rows = [replace(CERTIFICATE, check="power"), replace(CERTIFICATE, verdict=verdict)]
+    report = SimpleNamespace(certificates=rows)
+    item = SimpleNamespace(report=lambda: report, case=SimpleNamespace(name=CERTIFICATE.case))
+    return ended(module, "CertificateItem", item)
+
+
+@pytest.mark.parametrize(
+    ("verdict", "word"),
+    [
+        (AGREES, PASSED),
+        (DEVIATES, PASSED),
+        (BEYOND, EXPECTED),
+        (DIVERGED, EXPECTED),
+        (CRASHED, EXPECTED),
+        (REFUSED, EXPECTED),
+        ("changed", EXPECTED),
+        (FAILS, FAILED),
+    ],
+)
+def test_only_what_agrees_passes(verdict: str, word: str) -> None:
+    assert of_row(replace(row(), verdict=verdict)) == word
+
+
+@pytest.mark.mutant("beyond is a pass in pytest")
+def test_a_finding_is_no_pass() -> None:
+    found = replace(row(), verdict=BEYOND)
+    passes = otherwise(
+        pytest_plugin, "not in (AGREES, DEVIATES)", "not in (AGREES, DEVIATES, 'beyond')"
+    )
+    assert (of_row(found), of_row(found, passes)) == (EXPECTED, PASSED)
+
+
+@pytest.mark.mutant("what a user's own settings have to keep is an expected failure")
+def test_ones_own_settings_have_to_agree() -> None:
+    """But what an engine cannot do, no setting can."""
+    found = replace(row(), verdict=BEYOND)
+    was = "if self.promised and row.verdict != REFUSED:"
+    blind = otherwise(pytest_plugin, was, "if False:")
+    assert of_row(found, promised=True) == FAILED
+    assert of_row(found, blind, promised=True) == EXPECTED
+    assert of_row(replace(found, verdict=DIVERGED), promised=True) == FAILED
+    assert of_row(replace(found, verdict=REFUSED), promised=True) == EXPECTED
+    assert of_row(row(), promised=True) == PASSED
+
+
+@pytest.mark.mutant("a failed audit is an expected failure in pytest")
+def test_an_audit_that_fails_is_no_finding() -> None:
+    found = replace(row(), quantity="audit", verdict=FAILS)
+    was = "if row.verdict == FAILS:"
+    lenient = otherwise(pytest_plugin, was, f'{was[:-1]} and row.quantity != "audit":')
+    assert (of_row(found), of_row(found, lenient)) == (FAILED, EXPECTED)
+
+
+@pytest.mark.mutant("a row that got worse than committed passes in pytest")
+@pytest.mark.parametrize(("verdict", "otherwise_"), [(AGREES, PASSED), (BEYOND, EXPECTED)])
+def test_a_row_that_got_worse_than_committed_fails(verdict: str, otherwise_: str) -> None:
+    lost = "above 10 × the committed 1e-9"
+    found = replace(row(), verdict=verdict)
+    blind = otherwise(pytest_plugin, "if lost:", "if lost and False:")
+    assert (of_row(found, lost=lost), of_row(found, blind, lost=lost)) == (FAILED, otherwise_)
+
+
+@pytest.mark.mutant("an uncertified reference passes in pytest")
+def test_a_reference_of_which_one_check_fails_fails() -> None:
+    blind = otherwise(pytest_plugin, "if broken:", "if broken and False:")
+    assert of_certificate("holds") == PASSED
+    assert (of_certificate(FAILS), of_certificate(FAILS, blind)) == (FAILED, PASSED)
+
+
+def asked(file: str, module: Any = pytest_plugin) -> str:
+    """What becomes of a row of that file, where only bad.yaml has a mistake."""
+    report = SimpleNamespace(mistakes=[Mistake("bad.yaml", 1, 1, "title", "missing")])
+    source = SimpleNamespace(source=SimpleNamespace(file=file))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "_found", lambda session: report)
+        try:
+            module.CaseItem.report(SimpleNamespace(session=None, case=source))
+        except module.RowError as error:
+            return f"fails: {error}"
+    return "is run"
+
+
+@pytest.mark.mutant("the mistakes of a file are told of all others")
+def test_mistakes_cost_their_own_file() -> None:
+    assert asked("bad.yaml") == "fails: bad.yaml:1:1: title: missing"
+    assert asked("good.yaml") == "is run"
+    blamed = otherwise(pytest_plugin, "        if mine:", "        if not mine:")
+    assert asked("good.yaml", blamed).startswith("fails")

@@ -1,18 +1,28 @@
-"""What is generated in the READMEs: each part has one place, and says what its table says."""
+"""What is generated in READMEs, and the picture: each says what its table says."""
 
 import csv
+import inspect
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass, is_dataclass
 from math import inf
 from pathlib import Path
 
 import pytest
 from given.lines import refused, row
+from given.otherwise import otherwise
 
+from textmech.cases import scene
+from textmech.cases.language.grammar.joint import KINDS
+from textmech.cases.scene.forces.element import Force
+from textmech.cases.scene.joint import FREEDOMS
 from textmech.reports.data.row import DEVIATES, Comparison
 from textmech.reports.output.write import HERE, read
-from textmech.reports.show import readme
+from textmech.reports.show import nouns, readme
+from textmech.reports.show.picture import picture
 from textmech.reports.show.readme import FILES, PARTS, ROOT, Part, filled, releases, shares
+
+# What is generated in the READMEs: each part has one place, and says what its table says.
 
 PART = Part("README.md", "one", lambda: "new\n")
 TEXT = "before\n<!-- one: of a table -->\nold\n<!-- /one -->\nafter\n"
@@ -139,3 +149,96 @@ def test_what_moved_is_what_both_releases_have() -> None:
 def test_a_case_in_space_is_said_to_be_one() -> None:
     rows = [release("4.0.0", "bar_pendulum", "1"), release("4.0.0", "torque_free.thrown", "1")]
     assert "of the plane and of space" in releases(rows)
+
+
+# The README's picture: the same bytes from the same rows, and what it says is counted.
+
+
+def labels(svg: str) -> list[str]:
+    return re.findall(r">(\w+ \w+: \d+% of \d+)<", svg)
+
+
+@pytest.mark.slow
+def test_the_committed_one_is_drawn_from_the_committed_reports() -> None:
+    assert readme.PICTURE.read_text(encoding="utf-8") == readme.drawn()
+
+
+def test_a_case_counts_by_its_worst_quantity() -> None:
+    rows = [
+        row(case="one"),
+        row(case="one", ratio=3.0, quantity="b.x"),
+        row(case="two"),
+        row(case="two", ratio=1e9, quantity="audit"),
+        row(case="three", ratio=None),  # diverged
+        refused(case="four"),
+        row(case="four", realised="law"),
+        row("karnopp", case="one", engine="book"),
+        row("tuned", ratio=inf, case="one"),
+        row("tuned", ratio=1.0, case="two", engine="pymunk"),
+    ]
+    assert labels(picture(rows)) == [
+        "mujoco shipped: 33% of 3",
+        "mujoco tuned: 0% of 1",
+        "pymunk tuned: 100% of 1",
+    ]
+
+
+# What an adapter meets is said where it is declared: no field is without a meaning.
+
+ALL = [kind for kinds in nouns.PARTS.values() for kind in kinds]
+
+
+@dataclass(frozen=True)
+class Silent:
+    """A noun of which one field says nothing.
+
+    told: what the docstring says of it.
+    """
+
+    told: float
+    bare: float
+    mass: float  # of all of it, kg
+    angle: float
+    """Between both [rad]."""
+
+
+@pytest.mark.slow
+def test_every_field_has_a_meaning() -> None:
+    bare = [(k.__name__, name) for k in ALL for name, *_, said in nouns.described(k) if not said]
+    assert not bare
+
+
+@pytest.mark.mutant("a field of a noun says nothing")
+def test_a_field_that_says_nothing_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Silent, "__module__", "textmech.silent")
+    monkeypatch.setattr(inspect, "getsource", lambda kind: SOURCE)
+    found = {name: told for name, *told in nouns.described(Silent)}
+    nouns._source.cache_clear()
+    assert found == {
+        "told": ["float", "", "what the docstring says of it."],
+        "bare": ["float", "", ""],
+        "mass": ["float", "kg", "of all of it, kg"],
+        "angle": ["float", "rad", "Between both [rad]."],
+    }
+
+
+SOURCE = inspect.getsource(Silent)
+
+
+def test_every_noun_of_a_scene_is_there() -> None:
+    """But for what is no field of it: a frame, and what all forces, or all limits, share."""
+    exported = {getattr(scene, name) for name in scene.__all__}
+    shared = {scene.Frame, Force, scene.Limit}
+    assert not {kind for kind in exported if is_dataclass(kind)} - set(ALL) - shared
+
+
+def test_every_kind_of_joint_is_there() -> None:
+    text = nouns.nouns()
+    assert not [kind for kind in (*FREEDOMS, *KINDS[3]) if f"| `{kind}` |" not in text]
+
+
+@pytest.mark.mutant("the page of nouns leaves out what a base class declares")
+def test_what_a_base_declares_is_there() -> None:
+    blind = otherwise(nouns, "reversed(kind.__mro__[:-1])", "(kind,)")
+    assert [name for name, *_ in nouns.described(scene.Spring)][:3] == ["name", "a", "b"]
+    assert blind.described(scene.Spring)[0][0] == "stiffness"

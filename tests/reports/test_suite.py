@@ -6,15 +6,14 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 from given.lines import row
+from given.scenes import cases_of
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
 from textmech.engines.engine import Engine, Realised
 from textmech.reference.solve import Solution
@@ -25,7 +24,7 @@ from textmech.reports.batch.suite import Report
 from textmech.reports.batch.trials import Tried
 from textmech.reports.compare.judge.compare import Outcome
 from textmech.reports.compare.trial.trial import Trial
-from textmech.reports.data.row import AGREES, DIVERGED, FAILS, Cause
+from textmech.reports.data.row import AGREES, FAILS, Cause
 
 Make = Callable[..., Trial]
 
@@ -86,14 +85,6 @@ def test_an_engine_that_is_lost_while_it_plans_is_a_row_too(
     assert found[("tuned", "ball.x")].verdict == AGREES
     assert found[("shipped", "ball.x")].verdict == FAILS
     assert words in found[("shipped", "ball.x")].because
-
-
-@pytest.mark.slow
-def test_a_diverged_run_is_a_row(trial: Make, moving: Case) -> None:
-    engine = trial(setting="shipped", own_step=1e-3, stable=1e-5).engine
-    report = measure([moving], [engine])
-    assert verdicts(report)[("shipped", "ball.x")].verdict == DIVERGED
-    assert not report.fails
 
 
 @pytest.mark.slow
@@ -171,7 +162,7 @@ def test_a_reference_that_is_not_certified_judges_nothing(
 
 @pytest.mark.slow
 def test_nor_does_it_judge_events(
-    trial: Make, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    trial: Make, moving: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A ball that turns at 0.5 s: its time is a row of its own."""
     text = "\n".join(moving.source.lines)
@@ -179,9 +170,7 @@ def test_nor_does_it_judge_events(
     events = "events: {turns: {ball.vx: falls to zero}}\n"
     text = text.replace("initial:", f"{forces}initial:").replace("allow: {", f"{events}allow: {{")
     text = text.replace("allow: {", "allow: {turns.time: 1.0e-3, turns.count: 0.5, ")
-    file = tmp_path / "turning.yaml"
-    file.write_text(f"{text}\n", encoding="utf-8")
-    (turning,) = load(file)
+    (turning,) = cases_of(f"{text}\n", "turning")
     engine = trial(stops=(0.5,)).engine
     assert {row.verdict for row in measure([turning], [engine]).certificates} == {"holds"}
     monkeypatch.setattr("textmech.reference.certificate.laws.LAW", -1.0)

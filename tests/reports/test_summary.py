@@ -1,16 +1,36 @@
-"""The short table: its worst quantity, what agrees, what cures it, and the book's own lines."""
+"""What a run shows on a terminal: rows, the short table, cures."""
 
+from dataclasses import replace
 from math import inf, nan
+from pathlib import Path
 from typing import Any
 
 import pytest
 from given.lines import ladder, refused, row
 from given.otherwise import otherwise
+from given.swing import SWING
 
-from textmech.reports.data.row import CHANGED, DIVERGED, FAILS, Comparison
+from textmech.cases.load import load
+from textmech.reports.batch.selection import choose_cases
+from textmech.reports.batch.suite import Report
+from textmech.reports.data.row import (
+    CHANGED,
+    DIVERGED,
+    FAILS,
+    Cause,
+    Certificate,
+    Comparison,
+    Rungs,
+)
+from textmech.reports.output import write
+from textmech.reports.show import cures, terminal
 from textmech.reports.show import summary as agreement
 from textmech.reports.show import summary as short
 from textmech.reports.show.summary import Line, approximations, summary
+from textmech.reports.show.table import WIDTH, markdown, narrow, page
+from textmech.reports.show.terminal import certificate_lines, rows
+
+# The short table: its worst quantity, what agrees, what cures it, and the book's own lines.
 
 
 def line(*rows: Comparison, rungs: tuple = (), **cures: str) -> Line:
@@ -145,3 +165,169 @@ def test_all_quantities_agree_up_to_the_smallest_of_their_steps() -> None:
     assert usable([2e-3, 5e-4], otherwise(agreement, "return min(known)", "return max(known)")) == (
         "shipped 2 ms"
     )
+
+
+# Tables for a terminal of 80 columns and for a page.
+
+LONG = "RK4 with the connects' softness: 8h, hard, or a step of 0.125 ms"
+LINES = [
+    Line("four_bar", "mujoco.shipped", "A.force ×220", "tuned 1.6 ms", LONG),
+    Line("four_bar", "pymunk.shipped", "energy.total ×470", "tuned 0.8 ms", ""),
+    Line("rhombus", "mujoco.shipped", "agrees", "shipped 2 ms", ""),
+]
+
+
+def test_below_a_case_are_its_settings_and_long_words_are_broken_in_their_column() -> None:
+    head, *lines = narrow(LINES).splitlines()
+    assert head.endswith("  cured by")
+    assert [line for line in lines if not line.startswith(" ")] == ["four_bar", "rhombus"]
+    column = head.index("cured by")
+    assert " ".join(line[column:] for line in lines).split() == LONG.split()
+    assert all(len(line) <= WIDTH for line in (head, *lines))
+
+
+def test_a_column_of_which_nothing_is_known_is_left_out() -> None:
+    assert "cured by" not in narrow(LINES[1:])
+    assert page(LINES[1:])[0] == ["case", "setting", "worst, × allowed", "agrees with"]
+
+
+def test_a_name_is_never_broken() -> None:
+    name = "mujoco." + "m" * 90
+    assert f"  {name}" in narrow([Line("c", name, "a b ×2", "none", "x y")])
+
+
+@pytest.mark.slow
+def test_the_committed_reports_fit() -> None:
+    rows = write.read(write.HERE / "tolerance.csv", Comparison)
+    rungs = write.read(write.HERE / "convergence.csv", Rungs)
+    cures = {(r.case, r.engine, r.setting, r.quantity): LONG for r in rows}
+    for known in ({}, cures):
+        for lines in (summary(rows, rungs, known), approximations(rows, rungs)):
+            assert lines
+            assert max(map(len, narrow(lines).splitlines())) <= WIDTH
+
+
+def test_a_page_names_a_case_once() -> None:
+    text = markdown(page(LINES))
+    assert text.splitlines()[2:4] == [
+        f"| `four_bar` | mujoco.shipped | A.force ×220 | tuned 1.6 ms | {LONG} |",
+        "|  | pymunk.shipped | energy.total ×470 | tuned 0.8 ms |  |",
+    ]
+
+
+# The rows of a run on a terminal of 80 columns.
+
+LONG_REASON = (
+    "does not vanish with the step: 0.346 stay; "
+    + "one number for friction where there are two; " * 3
+)
+
+
+def test_a_setting_has_its_step_and_each_quantity_its_bound() -> None:
+    found = [row(), row(quantity="rod.omega", error=0.2, ratio=20.0, because="the step")]
+    assert list(rows(found)) == [
+        "",
+        "swing in mujoco 4.0.0 shipped (defaults), h = 2 ms",
+        "  rod.angle  1.00e-03 rad  of 1.0e-02   agrees",
+        "  rod.omega  2.00e-01 rad  of 1.0e-02   too far off",
+        "      the step",
+    ]
+
+
+def test_a_reason_that_rows_share_is_told_once() -> None:
+    twice = [row(quantity=name, ratio=2.0, because="the step") for name in ("a.x", "b.x")]
+    other = row(quantity="c.x", ratio=2.0, because="the model")
+    assert [line.split()[0] for line in list(rows([*twice, other]))[2:]] == [
+        "a.x",
+        "b.x",
+        "the",
+        "c.x",
+        "the",
+    ]
+
+
+def test_what_agrees_needs_no_reason() -> None:
+    assert "read back" not in "\n".join(rows([row(because="6 numbers read back")]))
+
+
+def test_what_is_refused_is_named_together() -> None:
+    names = [refused(quantity=name) for name in ("a.x", "b.x")]
+    assert list(rows([row(), *names]))[3:] == ["  a.x, b.x", "      not supported: engine: no"]
+    assert list(rows([refused(because="why")]))[1:] == [
+        "swing in mujoco 4.0.0 shipped (defaults)",
+        "  rod.angle",
+        "      not supported: why",
+    ]
+
+
+def test_nothing_is_wider_than_a_terminal() -> None:
+    found = [row(protocol=LONG_REASON), row(quantity="b.x", ratio=2.0, because=LONG_REASON)]
+    found += [
+        row("tuned", realised="law"),
+        *(refused("tuned", quantity=f"q{i}") for i in range(40)),
+    ]
+    lines = list(rows(found))
+    assert max(map(len, lines)) <= 80
+    assert "swing in mujoco 4.0.0 tuned (best found, our force law), h = 2 ms" in lines
+    assert LONG_REASON.split() == " ".join(lines[2:5]).split()
+
+
+def test_what_a_reference_is_certified_to(capsys: pytest.CaptureFixture[str]) -> None:
+    angle = "error of rod.angle"
+    certified = Certificate("swing", "", "generated", angle, 3e-10, 0.01, 3e-12, "rad", "holds")
+    law = Certificate("swing", "", "generated", "power balance", 1e-16, 1e-12, None, "", "holds")
+    assert list(certificate_lines([law])) == []
+    said = "swing: the reference is certified: rod.angle to 3e-12 rad"
+    assert list(certificate_lines([law, certified])) == ["", said]
+    for detailed in (True, False):
+        terminal.show(Report(certificates=[law, certified]), detailed=detailed, written=None)
+        assert (said in capsys.readouterr().out) == detailed
+    assert max(map(len, certificate_lines([certified] * 9))) <= 80
+    broken = replace(law, verdict=FAILS)
+    assert [*certificate_lines([broken, certified])] == []  # nothing is known of what breaks
+
+
+# Cures from the report of causes: joined by row, and of a user's own case none.
+
+HEAD = "case,engine,setting,quantity,error,allowed,cure,options,step,error_after,cost,law\n"
+ROWS = """\
+bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,RK4,{integrator: RK4},0.002,1e-7,4,
+bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,step,{},0.0005,0.6,4,h^1
+bar_pendulum,mujoco,shipped,energy.total,2.4,0.01,implicit + midpoint,{},0.002,0.6,9,
+bar_pendulum,pymunk,shipped,bar.angle,340,0.01,error_bias 0 + step,{error_bias: 0},0.00125,,20,
+bar_pendulum,pymunk,shipped,b.x,340,0.01,our force law in place of its own,,,,,
+bar_pendulum,pymunk,shipped,hinge.gap,340,0.01,not searched,,,,,
+"""
+
+
+def test_without_the_report_nothing_is_known(tmp_path: Path) -> None:
+    assert cures.cures(tmp_path) == {}
+
+
+def test_the_two_cheapest_cures_of_a_row_are_joined_and_steps_told(tmp_path: Path) -> None:
+    (tmp_path / cures.NAME).write_text(HEAD + ROWS, encoding="utf-8")
+    assert cures.cures(tmp_path) == {
+        ("bar_pendulum", "mujoco", "shipped", "energy.total"): "RK4 or step 0.5 ms",
+        ("bar_pendulum", "pymunk", "shipped", "bar.angle"): "error_bias 0 + step 1.25 ms",
+        ("bar_pendulum", "pymunk", "shipped", "b.x"): "our force law",
+    }
+
+
+def test_a_case_of_ones_own_has_none_of_a_shipped_ones(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / cures.NAME).write_text(HEAD + ROWS, encoding="utf-8")
+    monkeypatch.setattr(cures, "HERE", tmp_path)
+    assert len(cures.committed(choose_cases(["bar_pendulum"]))) == 3
+    own = tmp_path / "bar_pendulum.yaml"
+    own.write_text(SWING, encoding="utf-8")
+    assert cures.committed(load(own)) == {}
+
+
+def test_what_a_run_has_searched_is_told_alike() -> None:
+    one = Cause("mine", "mujoco", "shipped", "b.x", 2.0, 1.0, "step", "{}", 5e-4, 0.6, 4.0, "h^1")
+    none = replace(one, quantity="b.y", cure="not searched", step=None)
+    both = replace(one, cure="RK4", options="{integrator: RK4}", step=2e-3)
+    assert cures.found_cures([both, one, none]) == {
+        ("mine", "mujoco", "shipped", "b.x"): "RK4 or step 0.5 ms"
+    }

@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from second.drawn import Draw, finished
-from second.drawn_forces import force
+from second.drawn import Draw, finished, force
 
 FAR = [[3.1, 2.2], [-2.9, 2.6], [2.7, -3.3]]  # no spring to them comes to nothing
 

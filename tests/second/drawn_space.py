@@ -4,8 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from second.drawn import Draw, finished
-from second.drawn_forces import force
+from second.drawn import Draw, finished, force
 
 FAR = [[3.1, 2.2, 1.0], [-2.9, 2.6, -1.5], [2.7, -3.3, 2.0]]
 KINDS = ("hinge", "freedoms", "ball", "universal", "slide", "weld", "free", "blade", "touch")

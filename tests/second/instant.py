@@ -8,7 +8,7 @@ import numpy as np
 from second import contacts
 from second.bodies import three
 from second.forces import Effect, effect
-from second.joints import Held
+from second.geometry import Held
 from second.moving import Array, Length, Vector, along, dot, fixed, unit
 
 

@@ -8,9 +8,7 @@ import numpy as np
 from second.bodies import body, three
 from second.contacts import contact
 from second.forces import TIMED, word
-from second.geometry import Layout, driven
-from second.joints import joint
-from second.laws import law
+from second.geometry import Layout, driven, joint, law
 from second.moving import Array
 
 STANDARD = 9.80665  # m/s²

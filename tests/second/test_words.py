@@ -9,7 +9,53 @@ from typing import Any
 
 import pytest
 
-from second import both, drawn_plane, drawn_space, drawn_switching, read, words
+from second import both, drawn_plane, drawn_space, drawn_switching, read
+
+# What of the grammar the second reading does not know, and why; all else it has to read.
+
+
+UNREAD = {
+    # of the top of a file: nothing of them moves anything
+    "title": "a claim in words",
+    "source": "a place in the book",
+    "equations": "a place in the book",
+    "example": "a place in the book",
+    "exercise": "a place in the book",
+    "figure": "a place in the book",
+    "section": "a place in the book",
+    "thread": "a public question",
+    "system": "which hand-written system answers",
+    "drops_out": "said of parameters",
+    "rests": "said of what is claimed",
+    "stays": "said of what is claimed",
+    "step": "of engines; as a law in time it is read",
+    "reach": "of engines",
+    "deviates": "of engines",
+    "limit": "of engines",
+    "by": "of engines",
+    "because": "of engines",
+    "tube": "of engines: the one case that has it asks nothing beside its events but times",
+    # states
+    "states": "how a seed draws is not said: `test_random.py` takes what the reference drew",
+    "random": "as states",
+    "seed": "as states",
+    "q": "as states",
+    "q_dot": "as states",
+    "q_ddot": "as states",
+    # the smooth law of dry friction
+    "smooth": "(2.95) stands in the book and not in the README; it is compared with the exact law",
+    "band": "as smooth",
+    "sharpness": "as smooth",
+}
+"""Words of the grammar that are not read, with the reason."""
+
+UNDRAWN = {
+    "ahead_of": "only two walkers have it",
+    "spokes": "only the rimless wheel has it",
+    "number": "of spokes",
+}
+"""Words that no random scene has, though shipped cases do, with the reason."""
+
 
 HERE = Path(__file__).parent
 CASES = HERE.parents[1] / "cases"
@@ -20,7 +66,7 @@ def literals() -> set[str]:
     """All strings that stand in the files that read."""
     found = set()
     for file in HERE.glob("*.py"):
-        if not file.name.startswith(("test_", "drawn", "words", "both", "size")):
+        if not file.name.startswith(("test_", "drawn", "both")):
             for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.Constant) and isinstance(node.value, str):
                     found.add(node.value)
@@ -62,8 +108,8 @@ MADE = {
     "ay": "a and an axis", "az": "a and an axis", "fx": "f and an axis", "fy": "f and an axis",
     "fz": "f and an axis", "mx": "m and an axis", "my": "m and an axis", "mz": "m and an axis",
     "alpha_x": "alpha_ and an axis", "alpha_y": "alpha_ and an axis",
-    "alpha_z": "alpha_ and an axis", "time": "of events.times", "count": "of events.times",
-    "mass_matrix": "of test_states",
+    "alpha_z": "alpha_ and an axis", "time": "of answer.times", "count": "of answer.times",
+    "mass_matrix": "of test_random",
     **{f"angular_{axis}": "angular_ and an axis" for axis in "xyz"},
     **{f"omega_{i}": "omega_ and a number" for i in (1, 2, 3)},
     **{f"inertia_{i}": "inertia_ and two" for i in ("11", "22", "33", "12", "13", "23")},
@@ -73,7 +119,7 @@ MADE = {
 
 def unread(every: set[str], known: set[str]) -> set[str]:
     """Words that are neither read nor said to be not."""
-    return every - known - set(words.UNREAD)
+    return every - known - set(UNREAD)
 
 
 def keys(told: Any) -> Iterator[str]:
@@ -96,15 +142,15 @@ def test_every_word_of_the_grammar_is_read_or_has_a_line() -> None:
 
 
 def test_no_line_is_about_what_is_no_word() -> None:
-    assert set(words.UNREAD) <= grammar()
-    assert set(words.UNDRAWN) <= grammar()
+    assert set(UNREAD) <= grammar()
+    assert set(UNDRAWN) <= grammar()
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("a new word of the grammar that the second reading passes over")
 def test_a_new_word_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     assert unread(grammar() | {"gearbox"}, literals()) == {"gearbox"}
-    monkeypatch.delitem(words.UNREAD, "smooth")
+    monkeypatch.delitem(UNREAD, "smooth")
     assert unread(grammar(), literals()) == {"smooth"}
 
 
@@ -118,7 +164,7 @@ def test_every_word_that_is_read_is_compared() -> None:
         used |= set(keys(drawn_plane.drawn(seed)))
     for seed in range(27):
         used |= set(keys(drawn_space.drawn(seed)))
-    assert grammar() - used - set(words.UNREAD) == set()
+    assert grammar() - used - set(UNREAD) == set()
 
 
 @pytest.mark.slow

@@ -1,43 +1,40 @@
-"""What becomes of the words of a case in space."""
+"""What becomes of the words of a case in space, and every mistake that only it can have."""
 
+import re
 from math import cos, pi, radians, sin
 from pathlib import Path
 
 import numpy as np
 import pytest
+from given.scenes import cases_of, mistakes_of
 from given.spatial_case import SOUND
 from given.spatial_motions import turn
 
 from textmech.cases.case import Case
-from textmech.cases.load import load
 from textmech.cases.scene import (
     STANDARD_GRAVITY,
     Anchor,
-    GroundPoint,
     Push,
     Scene,
     Signal,
     Torque,
-    solid,
 )
 from textmech.cases.scene.contact import spatial_contact
-from textmech.cases.scene.frame import SPACE
-from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import matrix
+
+# What becomes of the words of a case in space.
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def case_of(tmp_path: Path, text: str) -> Case:
-    path = tmp_path / "own.yaml"
-    path.write_text(text, encoding="utf-8")
-    (case,) = load(path)
+def case_of(text: str) -> Case:
+    (case,) = cases_of(text)
     return case
 
 
-def scene_of(tmp_path: Path, text: str = SOUND) -> Scene:
-    return case_of(tmp_path, text).scene
+def scene_of(text: str = SOUND) -> Scene:
+    return case_of(text).scene
 
 
 @pytest.mark.parametrize(
@@ -50,71 +47,16 @@ def scene_of(tmp_path: Path, text: str = SOUND) -> Scene:
         ("gravity: [0.1, -0.2, -1.62 m/s^2]", (0.1, -0.2, -1.62)),
     ],
 )
-def test_gravity(tmp_path: Path, words: str, gravity: tuple[float, float, float]) -> None:
-    scene = scene_of(tmp_path, SOUND.replace("incline: phi0", words))
+def test_gravity(words: str, gravity: tuple[float, float, float]) -> None:
+    scene = scene_of(SOUND.replace("incline: phi0", words))
     assert scene.gravity == pytest.approx(gravity, rel=1e-15)
 
 
-def test_points_and_bodies(tmp_path: Path) -> None:
-    scene = scene_of(tmp_path)
-    assert scene.points == {
-        "O": GroundPoint((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),  # type: ignore[arg-type]
-        "hook": GroundPoint((0.0, 0.0, 1.0), (0.0, 0.1, 0.0)),  # type: ignore[arg-type]
-    }
-    assert dict(scene.bodies) == {
-        "bar": solid.bar(name="bar", mass=1.2, length=0.8, points={"P": (0.1, 0.0, 0.0)}),
-        "wheel": solid.disk(name="wheel", mass=2.0, radius=0.25, axle=Y, points={}),
-        "globe": solid.sphere(name="globe", mass=2.0, radius=0.25, points={}),
-        "box": solid.block(name="box", mass=2.0, size=(0.1, 0.2, 0.3), points={}),
-        "top": solid.rigid(
-            name="top",
-            mass=2.0,
-            inertia=(0.05, 0.05, 0.04, 0.0, 0.0, 0.01),
-            points={"P": (0.0, 0.0, -0.2)},
-        ),
-        "bob": solid.particle(name="bob", mass=0.5),
-    }
-
-
-def test_joints(tmp_path: Path) -> None:
-    freedoms = {
-        "q1": ("hinge", "ground.O", "bar.start", (Freedom.turn(Z, "angle"),)),
-        "neck": ("ball", "ground.hook", "top.P", (Freedom("ball"),)),
-        "cross": ("universal", "bar.end", "box.center", (Freedom.turn(Y), Freedom.turn(Z))),
-        "rail": (
-            "slide", "ground.O", "bob.center", (Freedom.shift((0.0, 0.6, 0.8), "shift"),),
-        ),
-        "upright": (
-            "freedoms", "ground.O", "wheel.center",
-            (Freedom.shift(X, "x"), Freedom.shift(Y, "y"), Freedom.turn(Z, "theta")),
-        ),
-    }  # fmt: skip
-    begins = {"q1": {"angle": radians(30)}}  # of what `initial` and `near` say
-    assert dict(scene_of(tmp_path).joints) == {
-        name: Joint(
-            name,
-            kind,
-            Anchor(*a.split(".")),
-            Anchor(*b.split(".")),
-            left,
-            begins=begins.get(name, {}),
-            frame=SPACE,
-        )
-        for name, (kind, a, b, left) in freedoms.items()
-    }
-
-
-def test_a_weld_leaves_nothing(tmp_path: Path) -> None:
-    text = SOUND.replace("  neck: {omega: [0, 0, 20]}\n", "")
-    scene = scene_of(tmp_path, text.replace("neck: {ball", "neck: {weld"))
-    assert scene.joints["neck"].freedoms == ()
-
-
-def test_contacts_forces_and_drives(tmp_path: Path) -> None:
-    scene = scene_of(tmp_path)
+def test_contacts_forces_and_drives() -> None:
+    scene = scene_of()
     at = Anchor("globe", "center")
     assert scene.contacts == {"touch": spatial_contact("touch", at, 0.5, rim=False)}
-    on_rim = scene_of(tmp_path, SOUND.replace("[globe, ground", "[wheel, ground"))
+    on_rim = scene_of(SOUND.replace("[globe, ground", "[wheel, ground"))
     assert on_rim.contacts["touch"].rim
     assert scene.forces["hand"] == Push("hand", Anchor("wheel", "center"), Signal("constant", X))
     spin = Signal("sine", (0.0, 0.0, 1.0), pytest.approx(2 * pi / 3))  # type: ignore[arg-type]
@@ -127,31 +69,191 @@ def test_contacts_forces_and_drives(tmp_path: Path) -> None:
         "upright": {"theta_torque": ("N m", "force")},
         "q1": {"torque": ("N m", "force")},
     }
-    shifted = scene_of(tmp_path, SOUND.replace("upright.theta_dot: w", "rail.shift_dot: {ramp: 3}"))
+    shifted = scene_of(SOUND.replace("upright.theta_dot: w", "rail.shift_dot: {ramp: 3}"))
     assert shifted.drives["rail.shift_dot"] == Signal("ramp", (3.0,))
     assert table(shifted)["rail.shift_force"].unit == "N"
     assert "upright.theta_torque" not in table(shifted)
 
 
-def test_start(tmp_path: Path) -> None:
-    case = case_of(tmp_path, SOUND)
-    start = case.initial
-    assert start["q1"].given == {"angle": radians(30), "omega": 1.0}
-    assert start["neck"].given == {"omega_1": 0.0, "omega_2": 0.0, "omega_3": 20.0}
-    assert start["top"].points == {"P": (0.0, 0.0, 1.0)}
-    rates = {"vx": 0.1, "omega_1": 0.0, "omega_2": 0.0, "omega_3": 1.0}
-    assert start["globe"].given == {"x": 1.0, "y": 0.0, "z": 0.25, **rates}
-    assert start["globe"].attitude == (1.0, 0.0, 0.0, 0.0)
-    assert case.near["upright"].given == {"x": 0.2}
-    assert case.near["bob"].given == {"y": 0.1}
-
-
-def test_each_turn_of_an_attitude_is_about_the_axes_that_those_before_it_leave(
-    tmp_path: Path,
-) -> None:
+def test_each_turn_of_an_attitude_is_about_the_axes_that_those_before_it_leave() -> None:
     """About the ground's z, and then about the x that has turned with it."""
-    found = case_of(tmp_path, SOUND).initial["top"].attitude
+    found = case_of(SOUND).initial["top"].attitude
     assert found is not None
     about_x = turn([cos(0.1), sin(0.1), 0.0], radians(30))
     expected = about_x @ turn(Z, 0.1)
     np.testing.assert_allclose(matrix(np.array(found)), expected, atol=1e-15)
+
+
+# Every mistake that only a case in space can have: its place, its field, and what is said.
+
+ENGINES = {"mujoco": ("shipped", "tuned"), "pymunk": ("shipped", "tuned")}
+TABLE = Path(__file__).with_name("mistakes.txt").read_text(encoding="utf-8")
+EACH = re.findall(r"^- (.*)\n\+ (.*)\n(\d+:\d+): ([^:]*): (.*)$", TABLE, flags=re.MULTILINE)
+
+
+def mistakes(text: str) -> list[tuple[str, str, str]]:
+    told = mistakes_of(text, engines=ENGINES)
+    return [(f"{m.line}:{m.column}", m.where, m.what) for m in told]
+
+
+def test_sound() -> None:
+    assert mistakes(SOUND) == []
+
+
+def test_table_is_read_whole() -> None:
+    assert len(EACH) == TABLE.count("\n- ") > 80
+
+
+@pytest.mark.parametrize(("old", "new", "place", "field", "what"), EACH)
+def test_each(old: str, new: str, place: str, field: str, what: str) -> None:
+    assert SOUND.count(old) == 1
+    text = SOUND.replace(old, new.replace(r"\n", "\n"))
+    assert mistakes(text) == [(place, field, what)]
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_a_mistaken_parameter_is_named_once(free: bool) -> None:
+    """What it spoils is neither judged nor computed with: lengths, tensors and axes."""
+    text = SOUND.replace("along: [0, 3, 4]", "along: [0, 3, J]").replace("J: 0.05", "J: 0.05 q")
+    text = text.replace("l: 0.8 m", "l: 0.8 q").replace("{slide: [1, 0, 0]}", "{slide: [1, J, 0]}")
+    if free:  # the bar hangs on its spring alone
+        text = text.replace("bar.start]", "box.center]")
+        text = text.replace("universal: [bar.end, box", "universal: [box.center, top")
+    assert [where for _, where, _ in mistakes(text)] == ["parameters.l", "parameters.J"]
+
+
+def test_all_at_once() -> None:
+    """A broken part hides no other, and drags nothing along: q1's own quantities are not named."""
+    text = SOUND.replace("axis: [0, 0, 2]", "axis: [0, 0]")
+    text = text.replace("touch.slip: unknown", "touch.slp: unknown")
+    text = text.replace("constant: [1.0, 0, 0]", "constant: [1.0]")
+    text = text.replace("slide: [ground.O, bob.center]", "slide: [ground.O, bobb.center]")
+    text = text.replace("y: 0, z: 0.25", "yy: 0, z: 0.25 kg")
+    assert [(where, what) for _, where, what in mistakes(text)] == [
+        ("scene.joints.q1.axis", "should be a list of 3, has 2"),
+        ("scene.joints.rail.slide.1", "unknown body 'bobb'; did you mean 'bob'?"),
+        ("scene.forces.hand.constant", "should be a list of 3, has 1"),
+        ("initial.globe.yy", "unknown key 'yy'; did you mean 'y'?"),
+        ("initial.globe.z", "is '0.25 kg', but m was expected"),
+        ("allow.touch.slp", "unknown quantity 'touch.slp'; did you mean 'touch.slip'?"),
+    ]
+
+
+# A body that nothing keeps from turning about an axis, and that has no inertia about it.
+
+TEXT = """\
+title: A body on its joints
+scene:
+  space: 3
+  points: {{O: [0, 0, 0], Q: [1, 0, 0]}}
+  bodies:
+    rod: {body}
+    box: {{block: {{mass: 1.0, size: [0.1, 0.1, 0.1]}}}}
+  joints: {{{joints}}}
+initial: {{box: {{x: 0}}}}
+duration: 1.0
+samples: 26
+allow: {{box.x: 1.0e-3}}
+"""
+BAR = "{bar: {mass: 1.0, length: 0.5}, points: {side: [0.1, 0.2, 0], on: [0.1, 0, 0]}}"
+THIN = "{rigid: {mass: 1.0, inertia: [0.5, 0.5, 1.0, -0.5, 0, 0]}, points: {P: [0.1, 0.1, 0]}}"
+
+
+def said(body: str, joints: str) -> list[str]:
+    text = TEXT.format(body=body, joints=joints)
+    return [f"{m.line} {m.where}: {m.what}" for m in mistakes_of(text)]
+
+
+@pytest.mark.parametrize(
+    ("body", "joints"),
+    [
+        (BAR, ""),
+        (BAR, "a: {ball: [ground.O, rod.start]}"),
+        (BAR, "a: {ball: [ground.O, rod.on]}"),
+        (BAR, "a: {ball: [ground.O, rod.start]}, b: {ball: [ground.Q, rod.end]}"),
+        (BAR, "a: {hinge: [ground.O, rod.start], axis: [-2, 0, 0]}"),
+        (BAR, "a: {universal: [ground.O, rod.start], axes: [[0, 1, 0], [1, 0, 0]]}"),
+        (BAR, "a: {universal: [rod.end, box.center], axes: [[1, 0, 0], [0, 1, 0]]}"),
+        (THIN, ""),
+        (THIN, "a: {ball: [ground.O, rod.P]}"),
+    ],
+)
+def test_turns_freely(body: str, joints: str) -> None:
+    (mistake,) = said(body, joints)
+    assert mistake.startswith("6 scene.bodies.rod: ")
+    bar = "'rod' is a slender bar: nothing keeps it from turning about its own axis, and it has "
+    bar += "no inertia about that; give it as a `rigid` with a tensor"
+    thin = "nothing keeps 'rod' from turning about [0.707, 0.707, 0], and it has no inertia about "
+    assert mistake.endswith(bar if body == BAR else thin + "that")
+
+
+@pytest.mark.parametrize(
+    "joints",
+    [
+        "a: {hinge: [ground.O, rod.start], axis: [0, 0, 1]}",
+        "a: {ball: [ground.O, rod.side]}",  # where its own axis swings about the point
+        "a: {slide: [ground.O, rod.start], along: [1, 0, 0]}",
+        "a: {weld: [box.center, rod.start]}",
+        "a: {universal: [ground.O, rod.start], axes: [[0, 1, 0], [0, 0, 1]]}",
+        "a: {ball: [ground.O, rod.start]}, b: {hinge: [rod.end, box.center], axis: [0, 1, 0]}",
+        "a: {freedoms: {x: {slide: [0, 0, 1]}, t: {hinge: [0, 1, 0]}}, of: [ground.O, rod.start]}",
+    ],
+)
+def test_held_or_with_inertia(joints: str) -> None:
+    assert said(BAR, joints) == []
+
+
+# What asks for endless work in space is said when the file is read, as in the plane.
+
+ON_A_HINGE = """\
+title: A body on a hinge
+scene:
+  space: 3
+  points: {{O: [0, 0, 0]}}
+  bodies:
+    rod: {{bar: {{mass: 1.0, length: {length}}}}}
+    ball: {{sphere: {{mass: 1, radius: 0.1}}}}
+  joints: {{q: {{hinge: [ground.O, rod.start], axis: [0, 1, 0]}}}}
+  forces: {{{forces}}}
+  drive: {{{drive}}}
+initial: {{q: {{angle: 0.3, omega: {omega}}}, ball: {{omega: {spin}}}}}
+duration: 10.0
+samples: {samples}
+allow: {{q.angle: 1.0e-2}}
+"""
+
+
+def limits_said(**changed: object) -> list[str]:
+    given = {"length": 0.5, "forces": "", "drive": "", "omega": 1, "spin": "[0, 0, 1]"}
+    text = ON_A_HINGE.format(**given | {"samples": 26} | changed)
+    return [f"{m.where}: {m.what}" for m in mistakes_of(text) if "limit" in m.what]
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"length": 1e-7}, "duration: scene.bodies.rod swings at 1.21e+04 rad/s"),
+        ({"omega": 1e5}, "duration: initial.q swings at 1e+05 rad/s"),
+        ({"spin": "[0, -1.0e6 rpm, 0]"}, "duration: initial.ball swings at 1.05e+05 rad/s"),
+        ({"drive": "q.omega: 1.0e4"}, "duration: scene.drive.q.omega swings at 1e+04 rad/s"),
+        ({"drive": "q.omega: {ramp: 1.0e3}"}, "scene.drive.q.omega swings at 1e+04 rad/s"),
+        (
+            {"drive": "q.omega: {sine: {amplitude: 1, angular_frequency: 1.0e4}}"},
+            "scene.drive.q.omega swings at 1e+04 rad/s",
+        ),
+        (
+            {"forces": "s: {spring: [ball.center, ground.O], stiffness: 1.0e8, rest_length: 0}"},
+            "duration: scene.forces.s swings at 1e+04 rad/s",
+        ),
+        ({"samples": 200_000}, "samples: 200000 samples of 2 bodies, at most 1 of which hang"),
+    ],
+)
+def test_endless_work_is_said_with_its_number(changed: dict[str, object], words: str) -> None:
+    (mistake,) = limits_said(**changed)
+    assert words in mistake
+    assert "--allow-long" in mistake
+
+
+def test_what_takes_minutes_is_not_said() -> None:
+    assert limits_said() == []
+    assert limits_said(omega=1e2, spin="[0, 0, 1.0e2]", drive="q.omega: {ramp: 10}") == []

@@ -1,4 +1,4 @@
-"""The page as a person meets it, in a real browser: it works, and asks nobody for anything."""
+"""The page in a real browser: it works, asks nobody for anything, and draws joints closed."""
 
 import json
 import re
@@ -13,14 +13,20 @@ import numpy as np
 import pytest
 from given.browser import Tab, browser, found
 
-from textmech.cases.scene.rotation import turned
+from textmech.cases.case import Case
+from textmech.cases.scene.point import GROUND
+from textmech.reports.batch import suite
+from textmech.reports.batch.selection import choose_cases, choose_engines
 from textmech.reports.page.pack import packed_by_size
+from textmech.reports.page.page import NAME, write_measured
 from textmech.reports.page.page import page as drawn_page
+
+# The page as a person meets it, in a real browser: it works, and asks nobody for anything.
 
 WIDTHS = (390, 900, 1440)
 SHEET = 794  # px: the width of A4
 STOPS = 60  # of the tab key: ten sections, their links, three motions, one choice
-SHEETS = {"": 2, "#swing": 2, "#overview": 1, "#heat": 6, "#four_bar": 2, "#cases": 13}
+SHEETS = {"": 2, "#swing": 2, "#heat": 6}
 """What is printed at most of a choice: with nothing open, the first screen."""
 
 pytestmark = [
@@ -92,8 +98,7 @@ def test_the_page_of_one_case_has_no_shares(tab: Tab, made: SimpleNamespace) -> 
     assert tab.ask("document.querySelectorAll('#in-motion svg.mechanism').length") == 1
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (1440, "dark")])
 def test_nothing_is_wider_than_the_window(tab: Tab, page: str, width: int, scheme: str) -> None:
     look(tab, f"{page}#swing", width=width, prefers_color_scheme=scheme)
     tab.until("document.querySelector('#swing svg.mechanism')")
@@ -111,16 +116,6 @@ def test_text_of_a_case_is_never_markup(tab: Tab, page: str, made: SimpleNamespa
     assert tab.ask("window.struck") is None
     titles = tab.ask("[...document.querySelectorAll('article h3')].map((h) => h.textContent)")
     assert any("<script>window.struck" in title for title in titles)
-
-
-def test_every_link_leads_somewhere(tab: Tab, page: str) -> None:
-    look(tab, page)
-    lost = tab.ask(
-        """[...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')).filter(
-        (h) => !h.startsWith('#') || !document.getElementById(
-        decodeURIComponent(h.slice(1).split(/[?/]/)[0])))"""
-    )
-    assert lost == []
 
 
 def test_a_case_opens_by_its_address_and_moves(tab: Tab, page: str) -> None:
@@ -169,26 +164,6 @@ def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> No
     errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
     found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
     assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
-
-
-def test_places_turn_with_their_part(tab: Tab, page: str) -> None:
-    """The script's rotations, in the plane and in space, against those of the cases."""
-    random = np.random.default_rng(3)
-    look(tab, page)
-
-    def told(pose: np.ndarray, place: np.ndarray) -> list[float]:
-        return tab.ask(f"placed({json.dumps(pose.tolist())}, {json.dumps(place.tolist())})")
-
-    for _ in range(5):
-        x, y, angle, a, b = random.normal(size=5)
-        turned_by = (a + 1j * b) * np.exp(1j * angle)
-        found = told(np.array([x, y, angle]), np.array([a, b]))
-        assert found == pytest.approx([x + turned_by.real, y + turned_by.imag])
-        q = random.normal(size=4)
-        q /= np.linalg.norm(q)
-        place, centre = random.normal(size=(2, 3))
-        found = told(np.concatenate([centre, q]), place)
-        assert found == pytest.approx(centre + turned(q, place))
 
 
 def test_every_shipped_case_opens(tab: Tab, whole: Path) -> None:
@@ -415,23 +390,6 @@ def test_a_setting_is_chosen_on_the_first_screen(tab: Tab, page: str) -> None:
     tab.until(f"{answer}.textContent.startsWith('No case about pins was asked in pymunk')")
 
 
-def test_settings_are_told_apart_in_every_plot(tab: Tab, page: str) -> None:
-    """By colour, dash and marker: a person's own from all that an engine offers."""
-    look(tab, f"{page}#swing")
-    script = """((setting) => { const own = ['mujoco.hers', 'mujoco.mine'];
-        const drawn = swatch(columnOf(`mujoco.${setting}.native`, own).look);
-        document.getElementById('swing').append(drawn);
-        const line = getComputedStyle(drawn.querySelector('.curve'));
-        return [line.stroke, line.strokeDasharray, drawn.lastChild.outerHTML]; })"""
-    names = ("shipped", "recommended", "tuned", "mine", "hers")
-    looks = {name: tab.ask(f"{script}('{name}')") for name in names}
-    assert len({str(look[1:]) for look in looks.values()}) == len(names)
-    assert len({look[1] for look in looks.values()}) == len(names)
-    colours = {name: look[0] for name, look in looks.items()}
-    assert colours["shipped"] == colours["recommended"] == colours["tuned"]
-    assert len({colours[name] for name in ("tuned", "mine", "hers")}) == 3
-
-
 def test_numbers_are_written_in_one_style_and_on_one_line(tab: Tab, page: str) -> None:
     look(tab, page)
     told = [0.00000179, 1e-8, 2.05e-7, 0.5, 1234.5, 3e7, 0]
@@ -443,3 +401,128 @@ def test_numbers_are_written_in_one_style_and_on_one_line(tab: Tab, page: str) -
     spaces = "[...document.querySelectorAll('td.num')].map((c) => getComputedStyle(c).whiteSpace)"
     assert set(tab.ask(spaces)) == {"nowrap"}
     assert tab.ask("document.querySelectorAll('#swing td .chip').length") > 0  # verdicts
+
+
+# What is certified closed is drawn closed: places of the drawing, at times between its poses.
+
+HALF_A_PIXEL = 0.5  # px: what nobody sees
+LOOPS = ("four_bar", "slider_crank", "skew_chain", "heavy_top.loops")
+OWN_LOOP = """
+title: A four-bar whose crank turns by ten radians from sample to sample
+scene:
+  points: {O: [0, 0], Q: [1.2, 0.1]}
+  bodies:
+    crank: {bar: {mass: 0.5, length: 0.35}}
+    coupler: {bar: {mass: 1.0, length: 1.1}}
+    rocker: {bar: {mass: 0.8, length: 0.7}}
+  joints:
+    A: {pin: [ground.O, crank.start]}
+    B: {pin: [crank.end, coupler.start]}
+    C: {pin: [coupler.end, rocker.end]}
+    D: {pin: [ground.Q, rocker.start]}
+  forces: {engine: {torque: crank, constant: 6.0}}
+initial: {crank: {angle: 50 deg, omega: 10.0}}
+near: {rocker: {angle: 100 deg}}
+duration: 1.0
+samples: 11
+allow: {crank.angle: 1.0e-2, C.gap: 1.0e-4}
+"""
+
+
+@pytest.fixture(scope="module")
+def made_of_loops(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
+    """A page of these cases and of one of a user's own, by their names."""
+    place = tmp_path_factory.mktemp("closed")
+    (place / "own_four_bar.yaml").write_text(OWN_LOOP, encoding="utf-8")
+    cases = choose_cases([*LOOPS, str(place / "own_four_bar.yaml")])
+    engines = choose_engines(["mujoco"], ["shipped"])
+    report = suite.measure(cases, engines, progress=lambda *_: None)
+    assert not report.mistakes
+    write_measured(report, place / "page")
+    address = (place / "page" / NAME).as_uri()
+    return SimpleNamespace(address=address, cases={case.name: case for case in cases})
+
+
+def opened(tab: Tab, made_of_loops: SimpleNamespace, name: str) -> None:
+    tab.open(f"{made_of_loops.address}#{name}", width=1440, prefers_reduced_motion="reduce")
+    tab.until(f"document.getElementById({name!r}).querySelector('svg.mechanism')")
+
+
+def joint_ends(case: Case) -> dict[str, list[Any]]:
+    """Of each joint that lets nothing shift its two places, each on its part."""
+
+    def place(at: Any) -> list[Any]:
+        if at.body == GROUND:
+            return ["", [float(x) for x in case.scene.points[at.point].at]]
+        return [at.body, [float(x) for x in case.scene.bodies[at.body].points[at.point]]]
+
+    joints = {name: joint for name, joint in case.scene.joints.items() if not joint.shifts}
+    return {name: [place(at) for at in joint.refers()] for name, joint in joints.items()}
+
+
+APART = """((name, joints, straight) => {
+    const motion = MOTIONS[name], pose = poser(motion), t = unpackPose(motion.times);
+    const window = frame(motion, camera(motion, 35), pose, t), last = t[t.length - 1];
+    const width = document.getElementById(name).querySelector('svg.mechanism')
+        .getBoundingClientRect().width / CANVAS.width;
+    const line = (time) => {
+        const k = Math.max(1, t.findIndex((at) => at >= time)), [from, to] = [t[k - 1], t[k]];
+        const [a, b] = [pose(from), pose(to)], s = (time - from) / (to - from);
+        const between = (part, c) => c.map((v, i) => v + s * (b.get(part)[i] - v));
+        return new Map([...a].map(([part, c]) => [part, between(part, c)]));
+    };
+    return joints.map((ends) => Array.from({length: 1500}, (_, k) => {
+        const time = last * (k + .5) / 1500, now = straight ? line(time) : pose(time);
+        const [[x, y], [u, v]] = ends.map(([part, place]) => window(placed(now.get(part), place)));
+        return width * Math.hypot(x - u, y - v);
+    })); })"""
+
+
+@pytest.mark.mutant("straight lines between the poses of the animation")
+@pytest.mark.parametrize("name", [*LOOPS, "own_four_bar"])
+def test_no_joint_is_drawn_open(tab: Tab, made_of_loops: SimpleNamespace, name: str) -> None:
+    """By the page's own functions, in pixels of its drawing, at 1500 times; a rod stays long."""
+    case = made_of_loops.cases[name]
+    opened(tab, made_of_loops, name)
+    joints = joint_ends(case)
+
+    def opens(straight: str) -> float:
+        asked = json.dumps([*joints.values()])
+        apart = np.array(tab.ask(f"{APART}({name!r}, {asked}, {straight})"))
+        rods = [getattr(case.scene.joints[joint], "swings", False) for joint in joints]
+        return float(np.max(np.where(rods, np.ptp(apart, axis=1), np.max(apart, axis=1))))
+
+    assert opens("false") < HALF_A_PIXEL
+    if name in ("four_bar", "own_four_bar"):
+        assert opens("true") > 2 * HALF_A_PIXEL
+
+
+BARS = """((name) => {
+    const section = document.getElementById(name), root = section.querySelector('svg.mechanism');
+    const slider = section.querySelector('[aria-label=time]');
+    const width = root.getBoundingClientRect().width / CANVAS.width;
+    const number = (text) => width * Number(text);
+    const bars = [...root.querySelectorAll('.reference .body')];
+    return Array.from({length: 334}, (_, k) => {
+        slider.value = 3 * k;
+        slider.dispatchEvent(new Event('input', {bubbles: true}));
+        return bars.map((bar) => bar.getAttribute('points').split(' ').map(
+            (point) => point.split(',').map(number)));
+    }); })"""
+
+
+@pytest.mark.parametrize("name", ["four_bar", "own_four_bar"])
+def test_the_bars_that_are_drawn_hang_together(
+    tab: Tab, made_of_loops: SimpleNamespace, name: str
+) -> None:
+    """Read from the drawing itself, at 334 places of its slider; no bar is drawn shorter."""
+    opened(tab, made_of_loops, name)
+    bars = np.array(tab.ask(f"{BARS}({name!r})"))  # time, bar, end, axis
+    crank, coupler, rocker = np.moveaxis(bars, 1, 0)
+    gaps = [crank[:, 1] - coupler[:, 0], coupler[:, 1] - rocker[:, 1]]
+    gaps += [end - end[0] for end in (crank[:, 0], rocker[:, 0])]  # on the ground
+    assert np.max(np.linalg.norm(gaps, axis=-1)) < HALF_A_PIXEL
+    lengths = np.linalg.norm(bars[:, :, 1] - bars[:, :, 0], axis=-1)
+    assert np.max(np.ptp(lengths, axis=0)) < HALF_A_PIXEL
+    angle = np.unwrap(np.arctan2(*(crank[:, 1] - crank[:, 0]).T))
+    assert np.ptp(angle) > 0.5  # it moves

@@ -1,24 +1,35 @@
-"""The page as text: the same bytes every time, whole by itself, and no text of a case is markup."""
+"""The page as text, and the commands that write it."""
 
 import gzip
 import json
 import re
+import unicodedata
 from base64 import b64decode
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 from urllib.parse import unquote
+from xml.etree.ElementTree import fromstring
 
+import pandas as pd
 import pytest
+from given.command import NEW, textmech
 
+from textmech import engines
 from textmech.cases.case import Case
+from textmech.reports.batch.selection import choose_cases
 from textmech.reports.batch.suite import Report
+from textmech.reports.data.row import MUTANTS
 from textmech.reports.output import write
 from textmech.reports.output.write import FILES
 from textmech.reports.page.folder import BESIDE, Missing, folder
+from textmech.reports.page.listed import _equation, equations, mathml
 from textmech.reports.page.motions import motions
-from textmech.reports.page.page import embedded, page
+from textmech.reports.page.page import COLUMNS, embedded, mutants, page
+
+# The page as text: the same bytes every time, whole by itself, and no text of a case is markup.
 
 LARGEST = 3_000_000  # bytes: what a person waits for
 VOID = {"meta", "link", "input", "br", "img", "hr"}
@@ -159,3 +170,219 @@ def test_a_cut_table_is_told(made: SimpleNamespace, tmp_path: Path) -> None:
     (tmp_path / "tolerance.csv").write_text("\n".join([*cut[:2], *cut[3:]]) + "\n")
     with pytest.raises(ValueError, match="cut, or changed by hand"):
         folder(tmp_path)
+
+
+# The planted mistakes on the page: counted by room, each with the test that sees it.
+
+LAW, ODD = "tests/reference/test_law.py::test_seen", "tests/engines/test_odd.py::test_seen"
+FRAME = pd.DataFrame(
+    [
+        ("reference", "gravity upside down", LAW),
+        ("reference", "Steiner term left out", LAW),
+        ("engines", "<b>5 % on J</b>", ODD),
+    ],
+    columns=list(COLUMNS),
+)
+
+
+def shown(made: SimpleNamespace, beside: dict[str, pd.DataFrame]) -> str:
+    text = page(replace(made.folder, beside=beside), made.cases, made.motions)
+    return text.partition('id="trust"')[2].partition("</section>")[0]
+
+
+def test_they_are_counted_by_room_and_by_test() -> None:
+    found = mutants(FRAME)
+    assert found is not None
+    assert (found["count"], found["tests"]) == (3, 2)
+    assert [(room["room"], room["count"]) for room in found["rooms"]] == [
+        ("engines", 1),
+        ("reference", 2),
+    ]
+    ((test,),) = (room["tests"] for room in found["rooms"] if room["room"] == "reference")
+    assert test == {"seen_by": LAW, "planted": ["gravity upside down", "Steiner term left out"]}
+
+
+@pytest.mark.slow
+def test_each_is_on_the_page_with_its_test_and_is_no_markup(made: SimpleNamespace) -> None:
+    text = shown(made, {MUTANTS: FRAME})
+    assert "<summary>All 3 mistakes</summary>" in text
+    assert f'gravity upside down<br>Steiner term left out</td><td class="names">{LAW}<' in text
+    assert "&lt;b&gt;5 % on J&lt;/b&gt;" in text
+
+
+@pytest.mark.slow
+def test_beside_a_users_own_reports_there_is_none_and_no_word_of_it(made: SimpleNamespace) -> None:
+    assert mutants(None) is None
+    text = shown(made, {})
+    assert "Certificates" in text
+    assert "Mutants" not in text
+    assert MUTANTS not in text
+
+
+# Equations as MathML: every letter is kept, at its place, and nothing is markup.
+
+
+def told(line: str) -> str:
+    return "".join(fromstring(mathml(line)).itertext()).replace("\u2061", "").replace("\xa0", " ")
+
+
+def test_letters_have_their_dots_indices_and_exponents() -> None:
+    found = mathml("J_O φ̈ = −m g ω₁² e_β′ sin² φ")
+    assert "<msub><mi>J</mi><mrow><mi>O</mi></mrow></msub>" in found
+    assert '<mi class="dotted">φ̈</mi>' in unicodedata.normalize("NFD", found)
+    assert "<msubsup><mi>ω</mi><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></msubsup>" in found
+    assert "<mi>β</mi></mrow><mrow><mo>′</mo></mrow></msubsup>" in found
+    assert '<msup><mi mathvariant="normal">sin</mi>' in found
+
+
+def test_indices_and_exponents_of_more_letters_go_together() -> None:
+    assert "<mi>k</mi><mo>,</mo>" in mathml("ω_{k,k−1}")
+    assert "<mrow><mn>1</mn><mo>−</mo><mi>α</mi></mrow></msup>" in mathml("v^{1−α}")
+    assert mathml("ṙ_c²").count("<msubsup>") == 1
+    assert '<mi mathvariant="normal">max</mi><mrow><mi>i</mi>' in mathml("max_i x")
+    assert "<mrow><mn>10</mn></mrow></msup>" in mathml("v^10")
+    assert "<mrow><mo>−</mo><mn>1</mn></mrow></msup>" in mathml("v^−1")
+
+
+@pytest.mark.parametrize("unit", ["m²/s²", "1/s", "rad/s²", "N m"])
+def test_a_unit_behind_an_equation_is_no_part_of_it(unit: str) -> None:
+    found = _equation("(2.5)", f"a = b c [{unit}]")
+    assert found is not None
+    assert found.unit == unit
+    assert "[" not in found.html
+
+
+def test_what_would_be_markup_is_a_sign() -> None:
+    assert told('a <b> & "c') == 'a<b>&"c'
+    assert "<b>" not in mathml('a <b> & "c')
+
+
+@pytest.mark.slow
+def test_every_hand_written_motion_shows_its_equations(shipped: list[Case]) -> None:
+    cases = [case for case in shipped if case.system and case.states is None]
+    for case in cases:
+        found = equations(case)
+        assert found, case.name
+        assert any("(2." in one.numbers for one in found), case.name
+        for one in found:
+            assert "`" not in one.html + one.words
+            fromstring(one.html)
+
+
+def test_the_pendulum_shows_its_own_equation() -> None:
+    (case,) = choose_cases(["bar_pendulum"])
+    first = equations(case)[0]
+    assert first.numbers == "(2.34)"
+    assert first.unit == "rad/s²"
+    assert told_of(first.html) == "JOφ̈=−mg(l/2)cosφ"
+
+
+def told_of(html: str) -> str:
+    text = "".join(fromstring(html).itertext()).replace("\u2061", "")
+    return unicodedata.normalize("NFD", text)
+
+
+def test_what_is_generated_has_none() -> None:
+    (case,) = choose_cases(["free_pair"])
+    assert case.system is None
+    assert equations(case) == []
+
+
+# `textmech page` and `textmech plot`, as a person types them.
+
+PNG = b"\x89PNG\r\n"
+
+
+@pytest.fixture
+def cart(tmp_path: Path) -> Path:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+@pytest.mark.slow
+def test_a_run_writes_the_page_of_its_reports(cart: Path, tmp_path: Path) -> None:
+    """It is the one that `textmech page` makes of them."""
+    one = ("--engine", "mujoco.tuned")
+    done = textmech("run", cart, *one, "--out", "o", "--page", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    again = textmech("page", cart, *one, folder=tmp_path)
+    assert again.returncode == 0, again.stderr
+    assert again.stdout == "written to textmech-page/index.html\n"
+    assert {file.name for file in (tmp_path / "o").iterdir()} == {*write.FILES, "index.html"}
+    for file in (tmp_path / "o").iterdir():
+        assert file.read_bytes() == (tmp_path / "textmech-page" / file.name).read_bytes()
+
+
+def test_a_run_that_writes_nothing_has_no_page(cart: Path, tmp_path: Path) -> None:
+    done = textmech("run", cart, "--page", folder=tmp_path)
+    assert done.returncode == 2
+    assert "--page stands beside the CSV files, and needs --out" in done.stderr
+
+
+def test_where_there_are_no_reports_it_says_which_command_writes_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(write, "by_default", lambda: tmp_path / "nothing")
+    done = textmech("page", "--out", tmp_path / "o", folder=tmp_path)
+    assert done.returncode == 2
+    assert "has no tolerance.csv" in done.stderr
+    assert "textmech run --out" in done.stderr
+    assert "done" not in done.stderr  # before minutes of work
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cart.png", "CART.SVG"])
+def test_a_plot_is_what_its_name_says(cart: Path, tmp_path: Path, name: str) -> None:
+    words = ("plot", cart, "--engine", "mujoco.tuned", "--quantity", "rod.angle", "-o", name)
+    done = textmech(*words, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == f"written to {name}: rod.angle\n"
+    found = (tmp_path / name).read_bytes()
+    if name.endswith("png"):
+        assert found.startswith(PNG)
+    else:
+        assert b"rod.angle" in found  # text stays text
+        assert b"<dc:date>" not in found
+        again = textmech(*words, folder=tmp_path)
+        assert again.returncode == 0
+        assert (tmp_path / name).read_bytes() == found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("cart.yaml", "-o", "cart.gif"), "cart.gif is no picture that can be drawn: .png or .svg"),
+        (("cart.yaml", "-o", "no/cart.png"), "there is no folder no"),
+        (("cart.yaml",), "Missing option '-o'"),
+        (("sliding_block", "-o", "x.png"), "has variants; plot one of: sliding_block.below"),
+        (("cart.yaml", "--quantity", "rod.angel", "-o", "x.png"), "did you mean 'rod.angle'?"),
+        (("four_bra", "-o", "x.png"), "did you mean 'four_bar'?"),
+        (("robot_states", "-o", "x.png"), "is a claim about states: nothing moves"),
+    ],
+)
+def test_what_cannot_be_plotted_is_told(
+    cart: Path, tmp_path: Path, words: tuple[str, ...], told: str
+) -> None:
+    done = textmech("plot", *words, "--engine", "mujoco.tuned", folder=tmp_path)
+    assert done.returncode == 2
+    assert told in done.stderr
+    assert not list(tmp_path.glob("x.png"))
+
+
+@pytest.mark.slow
+def test_kept_poses_are_one_long_table_with_units(cart: Path, tmp_path: Path) -> None:
+    words = ("run", cart, "--engine", "mujoco", "--keep", "k")
+    done = textmech(*words, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    (file,) = (tmp_path / "k").glob("cart.poses.*")
+    read = pd.read_parquet if file.suffix == ".parquet" else pd.read_csv
+    frame = read(file)
+    assert set(frame["engine"]) == {"reference", "mujoco"}
+    units = dict(zip(frame["field"], frame["unit"], strict=True))
+    assert units == {"x": "m", "y": "m", "angle": "rad"}
+    settings = engines.settings("mujoco")
+    assert len(frame) == (1 + len(settings)) * 2 * 3 * 6  # runs, bodies, fields, samples
+    begins = frame[(frame["t [s]"] == 0) & (frame["body"] == "rod") & (frame["field"] == "angle")]
+    assert begins["value"].tolist() == pytest.approx([-0.6981317] * (1 + len(settings)))

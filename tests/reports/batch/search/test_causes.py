@@ -1,43 +1,59 @@
-"""Causes of real rows: those that are known by hand, and what is said where there are none."""
+"""Causes of real rows: those that are known by hand, carried over, and told by the commands."""
 
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from given import scenes
+from given.command import NEW, textmech
 from given.lines import ladder, row
 
 from textmech.reports.batch import suite
-from textmech.reports.batch.search.cause_rows import NOTHING
-from textmech.reports.batch.search.why import OURS, Rows
+from textmech.reports.batch.cache.store import Store
+from textmech.reports.batch.search.causes import Known
+from textmech.reports.batch.search.why import OURS, Key, Rows, key_of
 from textmech.reports.batch.selection import choose_engines
-from textmech.reports.batch.suite import Report
-from textmech.reports.data.row import ANOTHER, BEYOND, FALLS, UNSEARCHED, UNSETTLED, Cause
+from textmech.reports.data.row import (
+    ANOTHER,
+    BEYOND,
+    FALLS,
+    UNSEARCHED,
+    UNSETTLED,
+    Advice,
+    Cause,
+    Comparison,
+    as_written,
+)
+from textmech.reports.output import write
+from textmech.reports.show.cures import carried
 
-CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force", "planar_bodies")
+# Causes of real rows: those that are known by hand, and what is said where there are none.
 
-
-def measured(*, causes: bool, names: tuple[str, ...] = CASES) -> Report:
-    cases = [scenes.EVERY[name] for name in names]
-    engines = choose_engines([], [])
-    return suite.measure(
-        cases, engines, jobs=2, progress=lambda *_: None, book=False, causes=causes
-    )
+CASES = ("bar_pendulum", "four_bar", "sliding_block.below", "growing_force")
+"""`test_causes_are_current` searches them anew: what is committed of them is what is found."""
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
-    return measured(causes=True)
+def causes() -> list[Cause]:
+    return [c for c in write.read(write.HERE / "causes.csv", Cause) if c.case in CASES]
 
 
-def of(
-    report: Report, case: str, engine: str, quantity: str, setting: str = "shipped"
-) -> list[Cause]:
-    key = (case, engine, setting, quantity)
-    return [c for c in report.causes if (c.case, c.engine, c.setting, c.quantity) == key]
+@pytest.fixture(scope="module")
+def comparisons() -> list[Comparison]:
+    rows = write.read(write.HERE / "tolerance.csv", Comparison)
+    return [row for row in rows if row.case in CASES]
 
 
-@pytest.mark.slow
+def of(causes: list[Cause], *key: str) -> list[Cause]:
+    """Those of a case, an engine and a quantity, as shipped."""
+    case, engine, quantity = key
+    wanted = (case, engine, "shipped", quantity)
+    return [c for c in causes if (c.case, c.engine, c.setting, c.quantity) == wanted]
+
+
 @pytest.mark.parametrize(
     ("case", "engine", "quantity", "cures"),
     [
@@ -48,51 +64,42 @@ def of(
         ("four_bar", "mujoco", "D.gap", ["RK4 + softness of loops", "softness of loops + step"]),
         ("sliding_block.below", "mujoco", "block.x", ["impratio 1e6"]),
         ("growing_force", "pymunk", "block.x", [OURS["law"]]),
-        ("growing_force", "mujoco", "block.x", [OURS["law"], OURS["driver"]]),
-        ("planar_bodies", "pymunk", "energy.kinetic", [NOTHING]),
     ],
 )
 def test_causes_that_are_known(
-    report: Report, case: str, engine: str, quantity: str, cures: list[str]
+    causes: list[Cause], case: str, engine: str, quantity: str, cures: list[str]
 ) -> None:
-    assert [cause.cure for cause in of(report, case, engine, quantity)] == cures
+    assert [cause.cure for cause in of(causes, case, engine, quantity)] == cures
 
 
-@pytest.mark.slow
-def test_a_cure_brings_the_error_within_and_says_at_what_cost(report: Report) -> None:
-    cured = [cause for cause in report.causes if cause.error_after is not None]
+def test_a_cure_brings_the_error_within_and_says_at_what_cost(causes: list[Cause]) -> None:
+    cured = [cause for cause in causes if cause.error_after is not None]
     assert len(cured) > 20
     assert all(c.error_after <= (c.allowed or 0.0) for c in cured if c.error_after is not None)
     assert all((c.error or 0.0) > (c.allowed or 0.0) for c in cured)
-    (rk4, finer) = of(report, "bar_pendulum", "mujoco", "energy.total")
+    (rk4, finer) = of(causes, "bar_pendulum", "mujoco", "energy.total")
     assert (rk4.options, rk4.step, rk4.cost) == ("{integrator: RK4}", 2e-3, 4.0)
     assert (finer.options, finer.step, finer.cost, finer.law) == ("{}", 5e-4, 4.0, "h^1")
 
 
-@pytest.mark.slow
-def test_the_last_column_of_every_row_beyond_says_them(report: Report) -> None:
-    rows = {(r.case, r.engine, r.quantity): r for r in report.comparisons if r.verdict == BEYOND}
-    pendulum = rows["bar_pendulum", "mujoco", "energy.total"]
-    assert pendulum.because == "cured by RK4 (×4 the cost) or step 0.0005 s (×4 the cost)"
-    told = [row for row in rows.values() if "cured by" in row.because]
-    assert len(told) == len(rows)
-
-
-@pytest.mark.slow
-def test_a_declared_deviation_keeps_its_words(report: Report) -> None:
-    row = next(
-        r
-        for r in report.comparisons
-        if (r.case, r.engine, r.setting, r.realised, r.quantity)
-        == ("growing_force", "pymunk", "tuned", "native", "block.x")
-    )
-    words = "one number for friction: it breaks loose at the kinetic 3 N; cured by "
-    assert row.because == words + OURS["law"]
+def test_the_last_column_says_them_after_what_is_declared(comparisons: list[Comparison]) -> None:
+    because = {(r.case, r.engine, r.setting, r.quantity): r.because for r in comparisons
+               if r.realised == "native"}  # fmt: skip
+    pendulum = because["bar_pendulum", "mujoco", "shipped", "energy.total"]
+    assert pendulum == "cured by RK4 (×4 the cost) or step 0.0005 s (×4 the cost)"
+    assert all("cured by" in row.because for row in comparisons if row.verdict == BEYOND)
+    declared = "one number for friction: it breaks loose at the kinetic 3 N; cured by "
+    assert because["growing_force", "pymunk", "tuned", "block.x"] == declared + OURS["law"]
 
 
 @pytest.mark.slow
 def test_without_a_search_what_the_ladder_tells_stays() -> None:
-    report = measured(causes=False, names=("bar_pendulum",))
+    report = suite.measure(
+        [scenes.EVERY["bar_pendulum"]],
+        choose_engines(["mujoco.shipped"], []),
+        progress=lambda *_: None,
+        book=False,
+    )
     assert {cause.cure for cause in report.causes} == {UNSEARCHED}
     row = next(r for r in report.comparisons if r.verdict == BEYOND)
     assert row.because.startswith("the step: it falls with order 1.0")
@@ -135,3 +142,154 @@ def test_a_damper_of_the_engines_own_that_a_smaller_step_cures(tmp_path: Path) -
     )
     cures = {(c.setting, c.cure) for c in found.causes}
     assert cures == {("shipped", "step"), ("tuned", "step")}
+
+
+# Causes that a committed table knows are not searched while what they stand on is the same.
+
+
+@dataclass(frozen=True)
+class Told:
+    """Causes and rows of a run, and whether anything was run for the causes."""
+
+    causes: Sequence[Cause]
+    rows: Sequence[Comparison]
+    searched: bool
+
+    @property
+    def read(self) -> dict[Key, list[Cause]]:
+        """As causes.csv holds them."""
+        known: dict[Key, list[Cause]] = {}
+        for one in self.causes:
+            before, allow = as_written(one.error), as_written(one.allowed)
+            known.setdefault(key_of(one), []).append(replace(one, error=before, allowed=allow))
+        return known
+
+    @property
+    def verdicts(self) -> dict[tuple[str, ...], str]:
+        """As tolerance.csv holds them."""
+        return {(r.case, r.engine, r.setting, r.realised, r.quantity): r.verdict for r in self.rows}
+
+
+def run(place: Path, known: Known | None = None) -> Told:
+    """One case in one setting, of which nothing is remembered."""
+    searched = False
+
+    def progress(what: str, *_: object) -> None:
+        nonlocal searched
+        searched |= what == "causes"
+
+    report = suite.measure(
+        [scenes.EVERY["bar_pendulum"]],
+        choose_engines(["mujoco.shipped"], []),
+        progress=progress,
+        causes=True,
+        known=known,
+        store=Store(place),
+        book=False,
+    )
+    return Told(report.causes, report.comparisons, searched)
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> Told:
+    found = run(tmp_path_factory.mktemp("first"))
+    assert found.searched
+    return found
+
+
+@pytest.mark.slow
+def test_what_stands_on_the_same_is_carried_over(first: Told, tmp_path: Path) -> None:
+    found = run(tmp_path, Known(first.read, first.verdicts))
+    assert not found.searched
+    assert found.read == first.read
+    assert carried(found.causes, first.read).startswith(
+        f"causes: {len(first.read)} rows keep the committed ones"
+    )
+    assert carried(first.causes, {}) == ""
+
+
+Change = Callable[[Cause], Cause]
+CHANGES: Mapping[str, Change] = {
+    "of another version or adapter": lambda c: replace(c, searched_with="4.0.0 0123456789ab"),
+    "of another error": lambda c: replace(c, error=1.01 * (c.error or 0.0)),
+    "of another tolerance": lambda c: replace(c, allowed=2 * (c.allowed or 0.0)),
+    "of no search": lambda c: replace(c, searched_with=""),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("causes are carried over {what}")
+@pytest.mark.parametrize("what", [*CHANGES, "beside another verdict"])
+def test_what_does_not_is_searched(what: str, first: Told, tmp_path: Path) -> None:
+    change = CHANGES.get(what, lambda cause: cause)
+    verdicts = first.verdicts
+    if what not in CHANGES:
+        verdicts = {key: f"{verdict}?" for key, verdict in verdicts.items()}
+    known = {key: [change(one) for one in some] for key, some in first.read.items()}
+    found = run(tmp_path, Known(known, verdicts))
+    assert found.searched
+    assert found.causes == first.causes
+
+
+# `textmech causes` and `textmech advise` as a user meets them, with a case of one's own.
+
+
+@pytest.fixture
+def new(tmp_path: Path) -> Path:
+    file = tmp_path / "cart.yaml"
+    file.write_text(NEW, encoding="utf-8")
+    return file
+
+
+@pytest.mark.slow
+def test_causes_for_scripts(new: Path) -> None:
+    words = (new, "--json", "--no-cache")
+    done, run = textmech("causes", *words), textmech("run", "--causes", *words)
+    found = json.loads(done.stdout)
+    assert (found["mistakes"], found["exit_code"]) == ([], 0)
+    assert {"case": "cart", "engine": "pymunk", "setting": "shipped"}.items() <= found["causes"][
+        -1
+    ].items()
+    assert json.loads(run.stdout)["causes"] == found["causes"]
+
+
+@pytest.mark.slow
+def test_what_is_advised_for_ones_own_case_keeps_its_promise(new: Path) -> None:
+    """The printed settings, pasted into a file, bring every row within its tolerance."""
+    done = textmech("advise", new, "--engine", "pymunk", "--no-cache", folder=new.parent)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    words = [lines[i + 1] for i, line in enumerate(lines) if "as a file of --settings" in line]
+    assert words
+    for word in words:  # the fewest changes, and the cheapest
+        own = new.with_name("own.yaml")
+        own.write_text(word.strip(), encoding="utf-8")
+        run = textmech("run", new, "--engine", "pymunk", "--settings", own, folder=new.parent)
+        tables = run.stdout.split("\ncart in ")
+        (rows,) = [part for part in tables if part.split("\n")[0].count(" own")]
+        assert rows.count(" agrees") >= 2
+        assert "beyond" not in rows.split("\n\n")[0]
+
+
+@pytest.mark.slow
+def test_scripts_read_rows(new: Path, tmp_path: Path) -> None:
+    done = textmech(
+        "advise", new, "--json", "--out", tmp_path / "out", "--no-cache", folder=new.parent
+    )
+    found = json.loads(done.stdout)
+    assert found["exit_code"] == 0
+    assert {row["engine"] for row in found["advice"]} == {"mujoco", "pymunk"}
+    assert all(0 < row["ratio"] <= 0.5 for row in found["advice"])
+    written = write.read(tmp_path / "out" / write.ADVICE, Advice)
+    assert [(row.engine, row.want, row.recipe) for row in written] == [
+        (row["engine"], row["want"], row["recipe"]) for row in found["advice"]
+    ]
+
+
+@pytest.mark.parametrize(
+    "words", [(), ("bar_pendulum", "--all"), ("bar_pendulum", "--margin", "0.5")]
+)
+def test_mistaken_words_are_told(words: tuple[str, ...], tmp_path: Path) -> None:
+    done = textmech("advise", *words, folder=tmp_path)
+    assert done.returncode == 2
+    assert "Error" in done.stderr
