@@ -68,14 +68,14 @@ def rows(case: Case, engines: list[Engine], steps: int, rounds: int) -> Iterator
         head = Row("adapter", f"{case.name} in {engine.name}.{engine.setting}")
         ways, error = guarded(partial(plans, engine, case.scene, start))
         if ways is None:
-            yield replace(head, note=why(error))
+            yield replace(head, note=why(error) if error else "")
         for way in ways or ():
             if isinstance(way, Refusal):
                 yield replace(head, note=f"refused: {way.because}")
             elif way.realised == "native":
                 pair = Pair(case, start, engine, way, steps)
                 measured, error = guarded(partial(_measured, head, pair, rounds))
-                yield from measured or [replace(head, note=why(error))]
+                yield from measured or [replace(head, note=why(error) if error else "")]
 
 
 def _measured(head: Row, pair: "Pair", rounds: int) -> list[Row]:
