@@ -4,6 +4,7 @@ import math
 
 import mpmath
 import pytest
+from given.certified import stated
 from given.refused import refused
 from given.scenes import parsed, scene, tail
 
@@ -51,11 +52,9 @@ def test_what_is_struck_is_struck_at_any_samples(deep: float, samples: int) -> N
         fast = mpmath.sin(omega * strikes) / 10
         tau = omega * (end - strikes)
         x = float(w * mpmath.cos(tau) - fast * mpmath.sin(tau) / 2)
-    (stated,) = (c.certified for c in found.checks if c.name == "error of block.x")
     assert found.holds
     assert found.trajectory.switches.tolist() == pytest.approx([float(strikes)], abs=1e-10)
-    assert stated is not None
-    assert abs(found.trajectory.states["block"][-1, 0] - x) <= 2 * stated
+    assert abs(found.trajectory.states["block"][-1, 0] - x) <= 2 * stated(found)["block.x"]
 
 
 @pytest.mark.slow
