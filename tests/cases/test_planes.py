@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.scenes import cases_of, mistakes_of, typed_case
+from given.scenes import cases_of, mistakes_of, parsed
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError
@@ -268,7 +268,7 @@ def test_tips_stand_on_a_circle_counter_clockwise() -> None:
 
 def test_a_start_stands_on_a_tip_that_does_not_move() -> None:
     """y = l cos α, and v = ω × r from the tip at (l sin α, 0)."""
-    case = typed_case(SCENE.format(**SOUND))
+    case = parsed(SCENE.format(**SOUND))
     height = L * math.cos(math.pi / 6)
     wanted = (0.0, height, 0.0, 2 * height, 2 * L / 2, -2.0)
     assert start_poses(case)["wheel"] == pytest.approx(wanted, abs=1e-15)
@@ -276,7 +276,7 @@ def test_a_start_stands_on_a_tip_that_does_not_move() -> None:
 
 def test_gap_and_slip_are_of_the_lowest_tips() -> None:
     """Turned by 10° about tip1 the next one is l sin 10° − … above the floor; and slip of tip1."""
-    scene = typed_case(SCENE.format(**SOUND)).scene
+    scene = parsed(SCENE.format(**SOUND)).scene
     turn, half = math.radians(10), math.pi / 6
     x, y = L * math.sin(half) - L * math.sin(half - turn), L * math.cos(half - turn)
     states = {"wheel": np.array([[x, y, -turn, 0.5, 0.0, -2.0], [x, y, 0.0, 0.5, 0.0, 0.0]])}
@@ -298,7 +298,7 @@ def test_gap_and_slip_are_of_the_lowest_tips() -> None:
 )
 def test_what_spokes_cannot_is_said(changed: dict[str, str], words: str) -> None:
     with pytest.raises(CaseError) as caught:
-        typed_case(SCENE.format(**{**SOUND, **changed}))
+        parsed(SCENE.format(**{**SOUND, **changed}))
     assert words in str(caught.value)
 
 
@@ -311,7 +311,7 @@ def test_what_spokes_cannot_is_said(changed: dict[str, str], words: str) -> None
     ],
 )
 def test_a_start_that_cannot_be_is_said(start: str, words: str) -> None:
-    case = typed_case(SCENE.format(**{**SOUND, "start": start}))
+    case = parsed(SCENE.format(**{**SOUND, "start": start}))
     with pytest.raises(CaseError, match=words):
         start_poses(case)
 
@@ -347,6 +347,6 @@ allow: {{a.angle: 1.0e-3}}
 )
 def test_feet_are_two(one: str, two: str, words: str) -> None:
     with pytest.raises(CaseError) as caught:
-        typed_case(FEET.format(one=one, two=two))
+        parsed(FEET.format(one=one, two=two))
     assert words in str(caught.value)
-    typed_case(FEET.format(one="b.start", two=", ahead_of: a.start"))
+    parsed(FEET.format(one="b.start", two=", ahead_of: a.start"))

@@ -164,7 +164,7 @@ allow: {spin.work: 1.0e-2}
 def test_a_torque_does_what_the_energy_of_the_turn_gains(
     scene: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    case = scenes.typed_case(scene)
+    case = scenes.parsed(scene)
     motion = solve(case).trajectory
     assert balance(case.scene, motion) < 1e-6
     monkeypatch.setattr(Torque, "power", turned(Torque.power))
@@ -205,7 +205,7 @@ def stated(motion: Solution, name: str) -> float:
 @pytest.mark.slow
 def test_the_samples_do_not_have_to_lie_on_jumps() -> None:
     """F = m v̇: 5 N for 0.42 s from 1 m/s on, between 26 samples in a second."""
-    case = scenes.typed_case(FLAT.replace("ALLOWED", "1.0e-2"))
+    case = scenes.parsed(FLAT.replace("ALLOWED", "1.0e-2"))
     motion = solve(case)
     work = observe(case.scene, motion.trajectory, "hand.work")[-1]
     known = ((1 + 5 * 0.42) ** 2 - 1) / 2
@@ -216,7 +216,7 @@ def test_the_samples_do_not_have_to_lie_on_jumps() -> None:
 @pytest.mark.mutant("corners of laws left out of a work")
 def test_a_work_that_takes_no_heed_of_corners_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """The reference says of itself that it knows the work no better than a part of a sample."""
-    case = scenes.typed_case(FLAT.replace("ALLOWED", "100.0"))
+    case = scenes.parsed(FLAT.replace("ALLOWED", "100.0"))
     monkeypatch.setattr(looking, "corners", lambda *_: set[float]())
     motion = solve(case)
     work = observe(case.scene, motion.trajectory, "hand.work")[-1]
@@ -269,7 +269,7 @@ def test_the_stated_error_of_work_is_true_at_any_samples(
     """Pulses shorter and longer than a sample, on samples and between them."""
     text = SWUNG.replace("BEGIN", repr(begin)).replace("END", repr(end))
     text = text.replace("STIFF", repr(stiffness))
-    case = scenes.typed_case(text, tail=scenes.tail(1.0, samples))
+    case = scenes.parsed(text, tail=scenes.tail(1.0, samples))
     motion = solve(case)
     for name, known in swung(begin, end, stiffness, case.times).items():
         work = observe(case.scene, motion.trajectory, f"{name}.work")
@@ -294,11 +294,11 @@ allow: {rail.work: 1.0}
 def test_a_drive_beside_a_pulse_that_no_sample_sees_is_a_mistake() -> None:
     """Its effort jumps twice between two samples; seen there, it gives what the hand takes."""
     with pytest.raises(CaseError) as told:
-        solve(scenes.typed_case(HELD.replace("END", "0.115")))
+        solve(scenes.parsed(HELD.replace("END", "0.115")))
     (mistake,) = told.value.mistakes
     assert mistake.where == "allow.rail.work"
     assert mistake.what.endswith("take more samples")
-    case = scenes.typed_case(HELD.replace("END", "0.53"))
+    case = scenes.parsed(HELD.replace("END", "0.53"))
     motion = solve(case)
     work = observe(case.scene, motion.trajectory, "rail.work")[-1]
     assert abs(work + 5 * 0.42) <= stated(motion, "rail.work") < 1e-9

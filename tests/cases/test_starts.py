@@ -37,7 +37,7 @@ def test_slip_is_to_the_left_and_speed_along() -> None:
 
 def test_rates_follow_from_the_speed() -> None:
     """u = 0.7 along 40° + atan 3/4, and (2.6) from P to the centre."""
-    case = scenes.typed_case(edges.FREE)
+    case = scenes.parsed(edges.FREE)
     x, y, angle, vx, vy, omega = start_poses(case)["sleigh"]
     along, turn = np.exp(1j * (angle + np.arctan2(0.6, 0.8))), np.exp(1j * angle)
     lever = -(-0.35 + 0.1j) * turn  # from P to the centre
@@ -49,19 +49,19 @@ def test_rates_follow_from_the_speed() -> None:
 def test_rates_that_slip_are_a_mistake() -> None:
     slipping = edges.FREE.replace("omega: 1.1}", "omega: 1.1, vx: 3, vy: 0}")
     with pytest.raises(CaseError, match="the rates violate blade"):
-        start_poses(scenes.typed_case(slipping))
+        start_poses(scenes.parsed(slipping))
 
 
 def test_without_a_speed_more_is_needed() -> None:
     open_ended = edges.FREE.replace(", blade: {speed: 0.7}", "")
     with pytest.raises(CaseError, match=r"sleigh\.vx, sleigh\.vy are not determined"):
-        start_poses(scenes.typed_case(open_ended))
+        start_poses(scenes.parsed(open_ended))
 
 
 def test_an_edge_that_repeats_another_is_a_mistake() -> None:
     twice = edges.FREE.replace("0.6]}}", "0.6]}, again: {edge: sleigh.P, along: [0.8, 0.6]}}")
     with pytest.raises(CaseError, match=r"scene\.constraints\.again: .* not independent"):
-        start_poses(scenes.typed_case(twice))
+        start_poses(scenes.parsed(twice))
 
 
 UPRIGHT = """\
@@ -77,7 +77,7 @@ allow: {b.angle: 1.0e-2}
 
 def upright(angle: float, rates: str) -> None:
     text = UPRIGHT.replace("ANGLE", f"{angle:g}").replace("RATES", rates)
-    start_poses(scenes.typed_case(text))
+    start_poses(scenes.parsed(text))
 
 
 @pytest.mark.mutant("rates are compared with products that are rounding themselves")
@@ -122,7 +122,7 @@ scene:
 initial: {b: {x: 0, y: 0, angle: 90 deg, vx: 0, vy: 0, omega: 0}, c: {x: 0, y: 1, vx: 0, vy: 0.4}}
 allow: {c.y: 1.0e-2}
 """
-    start_poses(scenes.typed_case(text))
+    start_poses(scenes.parsed(text))
 
 
 # Starts by a distance and a direction from a point of the ground.
@@ -158,7 +158,7 @@ def off(case: Case, at: tuple[float, float]) -> float:
 @pytest.mark.parametrize(("point", "at"), STARTS.items())
 def test_the_centre_is_so_far_in_that_direction(point: str, at: tuple[float, float]) -> None:
     """Of a driven point, from where it starts: that of a sine with a phase is not `at`."""
-    case = scenes.typed_case(HELD.replace("POINT", point))
+    case = scenes.parsed(HELD.replace("POINT", point))
     given = case.initial["rod"].given
     assert off(case, at) < 1e-15
     assert {key: given[key] for key in ("angle", "vx", "vy")} == {"angle": 1.0, "vx": 1.0, "vy": 0}
@@ -169,11 +169,11 @@ def test_the_centre_is_so_far_in_that_direction(point: str, at: tuple[float, flo
 @pytest.mark.parametrize("point", ["S", "C"])
 def test_a_start_from_at_is_seen(point: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(GroundPoint, "state", lambda self, t: (*self.at, *self.velocity))
-    assert off(scenes.typed_case(HELD.replace("POINT", point)), STARTS[point]) > 0.1
+    assert off(scenes.parsed(HELD.replace("POINT", point)), STARTS[point]) > 0.1
 
 
 def test_it_starts_there() -> None:
-    x, y, angle, *_ = solve(scenes.typed_case(HELD.replace("POINT", "O"))).trajectory.states["rod"][
+    x, y, angle, *_ = solve(scenes.parsed(HELD.replace("POINT", "O"))).trajectory.states["rod"][
         0
     ]
     assert (x - 0.3, y + 0.2) == pytest.approx((-0.25 * math.sqrt(3), -0.25), abs=1e-15)

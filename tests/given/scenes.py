@@ -7,6 +7,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ruamel.yaml import YAML
+
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
 from textmech.cases.language.document import read
@@ -46,19 +48,22 @@ def mechanism(case: Case) -> Any:
 SCENES = Path(__file__).parents[1] / "scenes"
 
 
-def scene_text(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> str:
+def scene_text(name: str, changes: Mapping[str, Any] | str | None = None, **parameters: Any) -> str:
     """Returns the case file `tests/scenes/<name>.yaml` with other parameters and other entries.
 
-    Every parameter must be one of the file. changes: as in a variant, a map goes into a map key by
-    key, anything else replaces what stands there; None removes the key.
+    Every parameter must be one of the file. changes: as in a variant, or as its text; a map goes
+    into a map key by key, anything else replaces what stands there; None removes the key.
     """
+    entries: Any = changes
+    if isinstance(changes, str):
+        entries = YAML(typ="safe", pure=True).load(changes)
     data = read(SCENES / f"{name}.yaml").data
     unknown = set(parameters) - set(data.get("parameters", {}))
     assert not unknown, f"{name}.yaml has no parameter {', '.join(sorted(unknown))}"
-    return json.dumps(_merged(data, {"parameters": parameters, **(changes or {})}), indent=1)
+    return json.dumps(_merged(data, {"parameters": parameters, **(entries or {})}), indent=1)
 
 
-def scene(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> Case:
+def scene(name: str, changes: Mapping[str, Any] | str | None = None, **parameters: Any) -> Case:
     """Returns the case of `scene_text`: `scene("slope", mu=0.3)`."""
     return cases_of(scene_text(name, changes, **parameters), name)[0]
 
@@ -113,6 +118,6 @@ def typed(tmp_path: Path, scene: str, *, tail: str = TAIL) -> Case:
     return load(path)[0]
 
 
-def typed_case(scene: str, *, tail: str = TAIL) -> Case:
+def parsed(scene: str, *, tail: str = TAIL) -> Case:
     """Returns the case of `typed`, whose file nobody asks for."""
     return cases_of(HEAD + scene + tail)[0]

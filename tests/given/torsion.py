@@ -1,7 +1,5 @@
 """What acts about joints: of two bars on pins, one named backward, and of bodies in space."""
 
-from given.linkages import FOUR_BAR
-
 _EACH = """\
   forces:
     wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}
@@ -21,14 +19,23 @@ initial: {rod: {angle: 20 deg, omega: 1.0}, arm: {angle: -50 deg, omega: 0}}
 allow: {rod.angle: 1.0e-2, arm.angle: 1.0e-2, wire.torque: 1.0, knee.angle: 1.0e-2, oil.torque: 1.0}
 """.replace("FORCES\n", _EACH)
 
-LOOP = FOUR_BAR.replace(
-    "allow: {",
-    """\
+LOOP = """\
+scene:
+  points: {O: [0, 0], Q: [0.9, 0]}
+  bodies:
+    crank: {bar: {mass: 1, length: 0.3}}
+    coupler: {bar: {mass: 1, length: 0.8}}
+    rocker: {bar: {mass: 1, length: 0.6}}
+  joints:
+    A: {pin: [ground.O, crank.start]}
+    B: {pin: [crank.end, coupler.start]}
+    C: {pin: [coupler.end, rocker.end]}
+    D: {pin: [ground.Q, rocker.start]}
   forces: {wire: {torsion: D, stiffness: 9.0, rest_angle: 60 deg}}
 initial: {crank: {angle: 70 deg}}
 near: {rocker: {angle: 96 deg}}
-allow: {rocker.angle: 1.0e-2, """,
-)
+allow: {rocker.angle: 1.0e-2, crank.angle: 1.0e-2}
+"""
 """A four-bar linkage with a spring about its last pin, so that another has to close the loop."""
 
 FLAT = """\

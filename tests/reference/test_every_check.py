@@ -17,7 +17,7 @@ BOTH = "certificate/test_two_answers.py::test_a_mistake_in_either_answer_is_seen
 OF_ONE_SIDE = "certificate/test_one_sided.py::test_what_all_answers_share_is_seen"
 TOLD_BY_FILE = "certificate/test_as_the_file_says.py::test_what_all_answers_share_is_seen"
 NEAREST = "certificate/test_as_the_file_says.py::test_the_other_way_is_seen"
-OF_STATES = "certificate/test_parts.py::test_a_check_of_states_fails_by_itself"
+OF_STATES = "certificate/test_bounds.py::test_a_check_of_states_fails_by_itself"
 # By the code of the check's name, in the order of the files.
 CHECKS = {
     "f'{ERROR}{name}'": BOTH,
@@ -71,7 +71,9 @@ PREMISES = {
         "test_samples.py::test_a_premise_is_asked_between_the_steps"
     ),
     "assumptions.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
-    "assumptions.py::_struck": "certificate/test_work_missed.py",
+    "assumptions.py::_struck": (
+        "certificate/test_errors.py::test_work_of_a_drive_through_a_blow_is_refused"
+    ),
     "assumptions.py::check_start": "test_premises.py::test_a_written_system_has_the_scenes_bodies",
     "assumptions.py::_beyond_law": "test_premises.py::test_a_muscle_is_not_pressed_beyond_its_law",
     "determined.py::check_determined": (

@@ -1,13 +1,13 @@
 """What a case takes for granted: that it rolls, moves, and says where it lands."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
 from given.refused import refused
 from given.rod import rod
-from given.typed_scenes import AT_REST, CART, RAILED, WHEEL
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import solve
@@ -22,13 +22,10 @@ allow: {ball.y: 1.0e-3}
 
 
 @pytest.mark.parametrize(("part", "rolls"), [(0.99, False), (1.01, True)])
-def test_rolling_is_possible_just_above_what_it_needs(
-    tmp_path: Path, part: float, rolls: bool
-) -> None:
+def test_rolling_is_possible_just_above_what_it_needs(part: float, rolls: bool) -> None:
     """A disk needs tan β / 3: Example 2.1; one per cent less is not enough."""
     mu = part * np.tan(np.pi / 6) / 3
-    text = WHEEL.replace("BETA", "30 deg").replace("MU", repr(float(mu))).replace("UP", "0")
-    case = scenes.typed(tmp_path, text)
+    case = scenes.scene("rolling_wheel", beta="30 deg", mu=float(mu))
     if rolls:
         assert solve(case).holds
     else:
@@ -36,41 +33,52 @@ def test_rolling_is_possible_just_above_what_it_needs(
 
 
 @pytest.mark.slow
-def test_rolling_needs_enough_friction(tmp_path: Path) -> None:
+def test_rolling_needs_enough_friction() -> None:
     """A disk needs tan β / 3: Example 2.1."""
-    text = WHEEL.replace("BETA", "30 deg").replace("MU", "0.1").replace("UP", "0")
-    mistake = refused(scenes.typed(tmp_path, text))
+    mistake = refused(scenes.scene("rolling_wheel", beta="30 deg", mu=0.1))
     assert mistake.where == "scene.contacts.touch.ideal"
-    assert mistake.line == 7
+    assert mistake.text.strip() == '"ideal": "rolling"'
     assert "rolling is not possible with friction 0.1: at t = 0 s it would slip" in mistake.what
     assert f"needs {np.tan(np.pi / 6) / 3:.3g}" in mistake.what
-    solve(scenes.typed(tmp_path, text.replace("friction: 0.1", "friction: 0.2")))
+    solve(scenes.scene("rolling_wheel", beta="30 deg", mu=0.2))
 
 
-def test_the_floor_does_not_pull(tmp_path: Path) -> None:
+def test_the_floor_does_not_pull() -> None:
     """m g / 20 N/s: the wheel is lifted after 0.490 s, seen at the next sample."""
-    text = WHEEL.replace("BETA", "0").replace("MU", "0.5").replace("UP", "20")
-    mistake = refused(scenes.typed(tmp_path, text))
+    mistake = refused(scenes.scene("rolling_wheel", up=20))
     assert "the floor would have to pull at t = 0.52 s: wheel leaves it" in mistake.what
 
 
-def test_what_fails_first_is_told(tmp_path: Path) -> None:
+def test_what_fails_first_is_told() -> None:
     """On a slope a lifted wheel slips before it leaves the floor."""
-    text = WHEEL.replace("BETA", "20 deg").replace("MU", "0.2").replace("UP", "20")
-    assert "it would slip" in refused(scenes.typed(tmp_path, text)).what
+    lifted = scenes.scene("rolling_wheel", beta="20 deg", mu=0.2, up=20)
+    assert "it would slip" in refused(lifted).what
 
 
-@pytest.mark.parametrize("name", AT_REST)
-def test_what_rests_has_to_say_so(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [("hanging_bar", {}), ("mass_on_spring", {}), ("two_slides", {}), ("rolling_wheel", {"mu": 0})],
+)
+def test_what_rests_has_to_say_so(name: str, parameters: dict[str, Any]) -> None:
     with pytest.raises(CaseError, match="never moves: it stays") as caught:
-        solve(scenes.typed(tmp_path, AT_REST[name]))
+        solve(scenes.scene(name, "rests: null", **parameters))
     assert all(mistake.where.startswith("allow.") for mistake in caught.value.mistakes)
 
 
-def test_a_place_that_is_held_only_trembles(tmp_path: Path) -> None:
+def test_a_place_that_is_held_only_trembles() -> None:
     """The cart's height is 0 but for rounding, and rounding is no motion."""
+    text = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {cart: {block: {mass: 2, width: 0.3, height: 0.1}}, rod: {bar: {mass: 0.5, length: 0.6}}}
+  joints:
+    rail: {slide: [ground.O, cart.center], along: [1, 0]}
+    hinge: {pin: [cart.center, rod.start]}
+initial: {cart: {x: 0}, rod: {angle: -40 deg}}
+allow: {cart.x: 1.0e-3, cart.y: 1.0e-3, cart.vy: 1.0e-3}
+"""
     with pytest.raises(CaseError) as caught:
-        solve(scenes.typed(tmp_path, CART))
+        solve(scenes.parsed(text))
     assert [mistake.where for mistake in caught.value.mistakes] == ["allow.cart.y", "allow.cart.vy"]
 
 
@@ -174,17 +182,10 @@ def test_a_muscle_is_not_pressed_beyond_its_law(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.mutant("a claim that nothing moves, which nobody asks")
-def test_what_rests_does_not_move(tmp_path: Path) -> None:
-    text = f"""\
-{RAILED}\
-  forces: {{s: {{spring: [ground.O, b.center], stiffness: 100.0, rest_length: 1.0}}}}
-initial: {{b: {{x: 1.1, y: 0, vx: 0, vy: 0}}}}
-rests: true
-allow: {{b.x: 1.0e-3}}
-"""
-    mistake = refused(scenes.typed(tmp_path, text))
-    assert (mistake.where, mistake.what) == ("rests", "b.x moves by 0.2 m")
-    assert solve(scenes.typed(tmp_path, text.replace("x: 1.1", "x: 1.0"))).holds
+def test_what_rests_does_not_move() -> None:
+    mistake = refused(scenes.scene("mass_on_spring", "rests: true", y=-0.8288218333333333))
+    assert (mistake.where, mistake.what) == ("rests", "dot.y moves by 0.2 m")
+    assert solve(scenes.scene("mass_on_spring", "rests: true")).holds
 
 
 PUSHED = """\

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import scenes, written_scenes
+from given import scenes
+from given.flat import time_to_flat
 from given.refused import refused
-from given.typed_scenes import AT_REST, PARALLELOGRAM, SPRING, time_to_flat
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case
@@ -23,9 +23,7 @@ from textmech.reference.system import Array
 
 
 @pytest.mark.slow
-def test_a_flat_parallelogram_ends_the_motion(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_flat_parallelogram_ends_the_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     """There it can go on as a parallelogram or crossed: reported soon, and with the time."""
     asked, accelerations = Counter[str](), Multibody.accelerations
 
@@ -34,7 +32,7 @@ def test_a_flat_parallelogram_ends_the_motion(
         return accelerations(mode, t, q, v)
 
     monkeypatch.setattr(Multibody, "accelerations", counted)
-    mistake = refused(scenes.typed(tmp_path, PARALLELOGRAM))
+    mistake = refused(scenes.scene("parallelogram"))
     # Measured 1.2e4, not twice a whole four-bar; the integrators alone would creep on for minutes.
     assert asked["accelerations"] < 2.5e4
     assert mistake.where == "duration"
@@ -43,16 +41,15 @@ def test_a_flat_parallelogram_ends_the_motion(
     assert "what D holds is held by the others already" in mistake.what
 
 
-def test_a_spring_without_length(tmp_path: Path) -> None:
-    mistake = refused(scenes.typed(tmp_path, SPRING.replace("START", "0")))
+def test_a_spring_without_length() -> None:
+    mistake = refused(scenes.scene("mass_on_spring", c=3, y=0))
     assert mistake.where == "duration"
     assert "beyond t = 0 s: coil has no length there, and so no direction" in mistake.what
 
 
-def test_a_spring_that_loses_its_length_on_the_way(tmp_path: Path) -> None:
+def test_a_spring_that_loses_its_length_on_the_way() -> None:
     """It would push backwards beyond its anchor: λ = λ₀ + 1.5 cos(√(c/m) t) m is zero there."""
-    text = SPRING.replace("START", "-2").replace("scene:\n", "scene:\n  gravity: none\n")
-    mistake = refused(scenes.typed(tmp_path, text))
+    mistake = refused(scenes.scene("mass_on_spring", "scene: {gravity: none}", c=3, y=-2))
     assert mistake.where == "duration"
     t = np.arccos(-0.5 / 1.5) / np.sqrt(3 / 0.7)
     assert f"beyond t = {t:.4g} s: coil has no length there" in mistake.what
@@ -126,35 +123,25 @@ def test_a_rhombus_that_folds_flat_ends_the_motion() -> None:
     assert "diagonal has no length there" in mistake.what
 
 
-@pytest.mark.slow
-def test_a_disk_that_bounces_until_it_rests_is_no_mistake(tmp_path: Path) -> None:
-    text, end = written_scenes.text("elastic")
-    solution = solve(scenes.typed(tmp_path, text.replace("e: 1", "e: 0.5"), tail=end))
-    assert [check for check in solution.checks if not check.holds] == []
-    np.testing.assert_allclose(solution.trajectory.states["wheel"][-1][[1, 4]], [0.25, 0.0])
-
-
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("case", "words"),
     [
         (
-            AT_REST["hanging bar"]
-            .replace("bodies: {", "bodies: {dot: {particle: {mass: 1.2e6}}, ")
-            .replace("initial: {", "initial: {dot: {x: 1, y: 0}, "),
+            scenes.scene(
+                "hanging_bar",
+                "scene: {bodies: {dot: {particle: {mass: 1.2e+6}}}}\ninitial: {dot: {x: 1, y: 0}}",
+            ),
             "dot is 1e+06 times as heavy as bar: give bar more mass, or leave it out",
         ),
         (
-            AT_REST["hanging mass"].replace("stiffness: 30", "stiffness: 1.0e8"),
+            scenes.scene("mass_on_spring", c=1e8),
             "a spring of 1e+08 N/m swings 2e+03 times in 1 s: make it softer, or a joint",
         ),
-        (AT_REST["hanging bar"], "shorten the duration, or change what is about to jump"),
+        (scenes.scene("hanging_bar"), "shorten the duration, or change what is about to jump"),
     ],
     ids=["masses", "spring", "unknown"],
 )
-def test_steps_that_shrink_are_told_with_what_can_be_done(
-    tmp_path: Path, text: str, words: str
-) -> None:
-    case = scenes.typed(tmp_path, text)
+def test_steps_that_shrink_are_told_with_what_can_be_done(case: Case, words: str) -> None:
     generated = scenes.mechanism(case)
     y = np.concatenate(generated.start()[1:])
     reason = "the steps shrink to nothing at t = 0.00034668686823560225"
@@ -212,10 +199,8 @@ def test_what_is_advised_against_too_sharp_a_law_helps(tmp_path: Path) -> None:
 
 
 @pytest.mark.mutant("a reference that finds no memory ends in a traceback")
-def test_what_finds_no_memory_is_told_with_its_scene(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case = scenes.typed(tmp_path, SPRING.replace("START", "-2"))
+def test_what_finds_no_memory_is_told_with_its_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = scenes.scene("mass_on_spring", c=3, y=-2)
 
     def moved(case: Case) -> None:
         np.ones(2**50)  # of no machine

@@ -1,11 +1,10 @@
 """Case → certified motion."""
 
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
-from given.typed_scenes import AT_REST
 
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import reactions_of, solve
@@ -24,19 +23,27 @@ def test_a_hand_written_motion_is_the_generated_one() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", AT_REST)
-def test_what_rests_is_certified(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "parameters"),
+    [("hanging_bar", {}), ("mass_on_spring", {}), ("two_slides", {}), ("rolling_wheel", {"mu": 0})],
+)
+def test_what_rests_is_certified(name: str, parameters: dict[str, Any]) -> None:
     """At rest only rounding moves: no check may be relative to that."""
-    solution = solve(scenes.typed(tmp_path, f"rests: true\n{AT_REST[name]}"))
+    solution = solve(scenes.scene(name, "rests: true", **parameters))
     assert [check for check in solution.checks if not check.holds] == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["pin", "weld"])
-def test_a_particle_at_the_end_of_a_bar(tmp_path: Path, kind: str) -> None:
-    text = AT_REST["hanging bar"].replace("bodies: {", "bodies: {dot: {particle: {mass: 2}}, ")
-    text = text.replace("joints: {", f"joints: {{tip: {{{kind}: [bar.end, dot.center]}}, ")
-    solution = solve(scenes.typed(tmp_path, text.replace("-90 deg", "-30 deg")))
+def test_a_particle_at_the_end_of_a_bar(kind: str) -> None:
+    text = f"""\
+scene:
+  bodies: {{dot: {{particle: {{mass: 2}}}}}}
+  joints: {{tip: {{{kind}: [bar.end, dot.center]}}}}
+initial: {{bar: {{angle: -30 deg}}}}
+rests: null
+"""
+    solution = solve(scenes.scene("hanging_bar", text))
     assert solution.holds
     # (2.34) about O, at rest: J = ⅓ m l² + M l², moment −(½ m + M) g l cos φ
     J = 1.2 * 0.8**2 / 3 + 2 * 0.8**2

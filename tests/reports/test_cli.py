@@ -545,7 +545,7 @@ LENGTH = {DOMINO: 0.5, STACKED: 0.1, SPACE: 0.1}
 
 
 def told(text: str, more: str = "") -> list[str]:
-    case = scenes.typed_case(text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
+    case = scenes.parsed(text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
     return [*through(case.scene, solve(case).trajectory)]
 
 
@@ -565,7 +565,7 @@ def test_the_deepest_point_is_told(text: str, begins: str) -> None:
 
 def test_how_deep_is_what_the_angle_says() -> None:
     """A domino about its right corner at φ < 0: its left upper one is h cos φ − w sin φ high."""
-    case = scenes.typed_case(DOMINO.replace("MORE", ""), tail=scenes.tail(0.5, 26))
+    case = scenes.parsed(DOMINO.replace("MORE", ""), tail=scenes.tail(0.5, 26))
     motion = solve(case).trajectory
     angle = motion.states["box"][:, 2]
     above = 0.4 * np.cos(angle) - 0.1 * np.sin(angle)

@@ -12,7 +12,7 @@ from given import scenes
 from given.command import textmech
 from given.lines import said
 from given.otherwise import otherwise
-from given.scenes import cases_of, typed_case
+from given.scenes import cases_of, parsed
 
 from textmech import engines
 from textmech.cases.case import Case, Deviation, Event
@@ -250,7 +250,7 @@ allow: {p.x: 1.0e-5, hits.time: 1.0e-5, hits.p.vx.after: 1.0e-3}
 def solved(law: tuple[str, str], duration: float = 2.0) -> tuple[Case, Trajectory]:
     text = GROWS.replace("TIMES", law[0]).replace("VALUES", law[1])
     tail = f"duration: {duration}\nsamples: 21\nstep: {STEP}\n"
-    case = typed_case(text if duration > 1 else text.replace(STAYS_TOO, ""), tail=tail)
+    case = parsed(text if duration > 1 else text.replace(STAYS_TOO, ""), tail=tail)
     record = solve(case).trajectory.record
     assert record is not None
     return case, record
@@ -346,7 +346,7 @@ events: {at: {b.x: {rises to: 0.02}}, turns: {b.vx: falls to zero}}
 initial: {b: {x: 0, y: 0, vx: 1, vy: 0}}
 allow: {b.x: 1.0e-3, at.time: 1.0e-2}
 """
-    case = typed_case(text)
+    case = parsed(text)
     record = solve(case).trajectory.record
     assert record is not None
     assert reading(case.scene, record, case.events["turns"], np.zeros(0), 1e-3) == 0.0
@@ -356,7 +356,7 @@ allow: {b.x: 1.0e-3, at.time: 1.0e-2}
 @pytest.mark.mutant("a count that steps cannot tell is equal")
 def test_what_comes_too_soon_for_a_step_is_no_reproach(monkeypatch: pytest.MonkeyPatch) -> None:
     """Three steps before it breaks loose, and two of three before the end of a short motion."""
-    case = typed_case(
+    case = parsed(
         GROWS.replace("TIMES", SOON[0]).replace("VALUES", SOON[1]).replace(STAYS_TOO, ""),
         tail="duration: 0.5\nsamples: 26\n",
     )
@@ -397,7 +397,7 @@ def test_a_motion_of_ten_steps_has_its_rows(tmp_path: Path) -> None:
 @pytest.mark.mutant("a step that is cut has a middle, half a step back along what follows")
 def test_what_is_cut_is_where_the_body_was(monkeypatch: pytest.MonkeyPatch) -> None:
     """It lands less than half a step before a step ends."""
-    case = typed_case(PUCK, tail="duration: 1.0\nsamples: 26\n")
+    case = parsed(PUCK, tail="duration: 1.0\nsamples: 26\n")
 
     def errors() -> dict[str, float | None]:
         rows = judged(case, Pymunk("tuned"))
@@ -413,7 +413,7 @@ def test_what_is_cut_is_where_the_body_was(monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.parametrize(("speed", "duration"), [(1.2, 1.0), (0.9, 1.0), (1.2, 0.7), (1.2, 2.3)])
 def test_the_exact_motion_at_steps_is_it(speed: float, duration: float) -> None:
     """Also where it stops on a sample, behind which are rows an ulp apart; and at its very end."""
-    case = typed_case(
+    case = parsed(
         f"""\
 scene:
   gravity: none
@@ -461,7 +461,7 @@ def test_what_swings_on_has_not_come_to_rest() -> None:
 
 def test_what_lands_in_the_last_step_has_landed() -> None:
     puck = PUCK.replace("0.80017", "0.7996").replace("step: 1.0e-4", "step: 1.0e-3")
-    case = typed_case(puck, tail="duration: 0.4\nsamples: 6\n")
+    case = parsed(puck, tail="duration: 0.4\nsamples: 6\n")
     rows = {row.quantity: row for row in judged(case, Pymunk("tuned")) if row.realised == "driver"}
     assert rows["hits.count"].error == 0.0
     assert (rows["hits.time"].error or 0.0) < 1e-9
@@ -511,7 +511,7 @@ def test_others_do_not(at_once: dict[tuple[str, str], Comparison]) -> None:
 @pytest.mark.slow
 def test_it_is_the_cure() -> None:
     """2.8 m/s off at once; with 20 ms for the impact 0.06."""
-    found = tuned_rows(scenes.typed_case(ROPE, tail=TAIL + "tube: 20 ms\n"))
+    found = tuned_rows(scenes.parsed(ROPE, tail=TAIL + "tube: 20 ms\n"))
     assert "tube" not in said(found["native", "taut.ball.vy.after"])
     assert found["native", "taut.ball.vy.after"].verdict == AGREES
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given.otherwise import otherwise
-from given.scenes import scene, typed_case
+from given.scenes import scene, parsed
 from scipy.optimize import brentq
 
 from textmech.cases.case import Case, Event
@@ -64,7 +64,7 @@ def rail(speed: float, start: float = 0.0, forces: str = "", lasts: float = 12.0
     text = RAIL.replace("SPEED", repr(speed)).replace("START", repr(start))
     text = text.replace("  FORCES\n", f"  {forces}\n" if forces else "")
     text = text.replace("EVENTS", "events: {it: {r.slip: falls to zero}}")
-    return typed_case(text, tail=f"duration: {lasts}\nsamples: 25\n")
+    return parsed(text, tail=f"duration: {lasts}\nsamples: 25\n")
 
 
 ROWS = np.linspace(0.0, 1.0, 9)
@@ -236,7 +236,7 @@ def test_the_force_of_a_one_sided_spring_has_its_side(
 ) -> None:
     """It slackens after a quarter of its period, and never acts again."""
     text = PRESSED.replace("ONLY", only).replace("START", start)
-    case = typed_case(text, tail="duration: 0.7\nsamples: 8\n")
+    case = parsed(text, tail="duration: 0.7\nsamples: 8\n")
     quarter = math.pi / math.sqrt(10.0) / 2
     assert happened(case, "s.force", rule) == pytest.approx([quarter], abs=1e-9)
     assert happened(case, "s.force", other) == []
@@ -268,7 +268,7 @@ allow: {b.x: 1.0e-3}
     [(TURNS, "p.slip", 4.0), (GLIDES, "c.slip", 1 / (0.1 * 9.80665))],
 )
 def test_pins_and_contacts_have_two_sides_too(text: str, name: str, stops: float) -> None:
-    case = typed_case(text, tail="duration: 11.0\nsamples: 11\n")
+    case = parsed(text, tail="duration: 11.0\nsamples: 11\n")
     assert observe(case.scene, solve(case).trajectory, name)[0] == -1.0
     assert happened(case, name, RISES) == pytest.approx([stops], abs=1e-9)
     assert happened(case, name, FALLS) == []
@@ -332,7 +332,7 @@ def mirrored(seed: int, way: float) -> Case:
         w=20 * x[7], v=way * float(random.choice([-3.0, 3.0])),
         dry=f"{{kinetic: {{forward: {forward!r}, backward: {backward!r}}}}}",
     )  # fmt: skip
-    return typed_case(text, tail="duration: 2.0\nsamples: 11\n")
+    return parsed(text, tail="duration: 2.0\nsamples: 11\n")
 
 
 @pytest.mark.slow
@@ -469,7 +469,7 @@ allow: {b.y: 1.0e-2, lands.count: 0.5}
 @pytest.mark.slow
 @pytest.mark.parametrize(("text", "name", "times"), [(ROLLS, "rolls", 1), (BESIDE, "lands", 2)])
 def test_what_ends_during_a_pile_is_counted(text: str, name: str, times: int) -> None:
-    case = typed_case(text, tail="")
+    case = parsed(text, tail="")
     found = solve(case)
     assert mistaken(case, found.trajectory) == []
     assert counted(case, found, name) == times
@@ -512,7 +512,7 @@ def test_blows_within_rounding_are_not_counted(monkeypatch: pytest.MonkeyPatch) 
     """Three disks in a row meet ever more softly, above e = 7 - 4√3 for a time: here 32 times each,
     of which the last change the velocities by 1e-36."""
     for e, known in ((0.1, True), (0.08, True), (0.072, False)):
-        case = typed_case(DISKS.replace("E}", f"{e}}}"), tail="")
+        case = parsed(DISKS.replace("E}", f"{e}}}"), tail="")
         found = solve(case)
         wrong = mistaken(case, found.trajectory)
         assert [m.where for m in wrong] == ([] if known else ["allow.pp.count", "allow.qq.count"])
@@ -544,7 +544,7 @@ allow: {on.time: 1.0e-3, b.y: 1.0e-2}
 def shaken(parts: float, friction: float, duration: float) -> Case:
     """parts: of g, the largest acceleration of the platform."""
     text = SHAKEN.replace("SPEED", repr(parts * G / 20.0)).replace("MU", repr(friction))
-    return typed_case(text.replace("LAST", repr(duration)), tail="")
+    return parsed(text.replace("LAST", repr(duration)), tail="")
 
 
 def hop(parts: float) -> tuple[float, float]:

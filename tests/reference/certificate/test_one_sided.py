@@ -5,11 +5,11 @@ No scene here has a hand-written system: all answers come from one mechanism, wh
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
 from given import scenes
+from given.certified import broken
 
 from textmech.cases.fields.friction import Bounds
 from textmech.cases.scene.forces.limit import Rope, Stops
@@ -111,21 +111,6 @@ events: {l: {f.gap: falls to zero}}
 initial: {b: {x: 0, y: 0, vx: 0, vy: 0}}
 allow: {b.x: 1.0}
 """
-NEARLY = """\
-scene:
-  points: {O: [0, 0]}
-  bodies: {thigh: {bar: {mass: 1.0, length: 0.5}}, shank: {bar: {mass: 1.0, length: 0.5}}}
-  joints: {knee: {pin: [thigh.end, shank.start]}}
-  contacts: {foot: {between: [shank.end, ground.floor], friction: 0, restitution: 0.5}}
-  forces:
-    straight: {stops: knee, high: 0}
-    q: {couple: [thigh, shank], constant: -1.0e-9}
-events: {lands: {foot.gap: falls to zero}}
-initial:
-  thigh: {end: [0, 1.0], angle: -60 deg, omega: 0}
-  shank: {angle: -60 deg, omega: 0, vx: 0, vy: 0}
-allow: {thigh.omega: 1.0e-3}
-"""
 HOPS = """\
 scene:
   bodies: {d: {disk: {mass: 1.0, radius: 0.2}}}
@@ -154,45 +139,25 @@ scene:
 initial: {d: {x: 0, y: 0.2, angle: 0, omega: 90, vx: 4}}
 allow: {d.x: 1.0e-3}
 """
-CATCHES = """\
-scene:
-  gravity: none
-  points: {O: [0, 0], P: [3, 0]}
-  bodies: {b: {particle: {mass: 1.0}}}
-  joints: {r: {slide: [ground.O, b.center], along: [1, 0], dry_friction: {static: 3, kinetic: 0}}}
-  forces:
-    k: {spring: [ground.P, b.center], stiffness: 40.0, rest_length: 2.5}
-    p: {push: b.center, sine: {amplitude: [6, 0], angular_frequency: 9}}
-initial: {b: {x: 0.5, vx: 0.5}}
-allow: {b.x: 1.0e-3}
-"""
 SCENES = {
     "a disk that hops": HOPS, "a band": BAND, "a disk that slides": SLIDES,
-    "a pulse that lifts": LIFTED, "a stop that nearly touches": NEARLY,
+    "a pulse that lifts": LIFTED,
     "stops between two bodies": TWO_STOPS, "a rope": ROPE,
     "a disk that bounces": BOUNCE, "a disk on a face": ON_A_FACE, "a blow on a face": STRIKES,
     "what breaks loose": LOOSE, "a rail that rubs": RAIL,
-    "a rail that only catches, between two samples": CATCHES,
 }  # fmt: skip
 
 
-ENDS = {
-    "a stop that nearly touches": 0.375,  # s: then its stop is struck by what its foot does
-    "a rail that only catches, between two samples": 6.0,
-}
-
-
-def checks(folder: Path, name: str) -> dict[str, Any]:
-    case = scenes.typed(folder, SCENES[name], tail=scenes.tail(ENDS.get(name, 1.0), 26))
-    return {check.name: check for check in solve(case).checks}
+def checks(name: str) -> dict[str, Any]:
+    return {c.name: c for c in solve(scenes.parsed(SCENES[name])).checks}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
-def test_what_is_sound_holds(name: str, tmp_path: Path) -> None:
-    found = checks(tmp_path, name)
+def test_what_is_sound_holds(name: str) -> None:
+    found = checks(name)
     assert {FRICTION, PASSES, LENGTH} & found.keys()
-    assert [check for check in found.values() if not check.holds] == []
+    assert broken(found.values()) == set()
 
 
 def with_row(constraint: Constraint, row: Any) -> Constraint:
@@ -344,11 +309,9 @@ MISTAKES: dict[str, tuple[Callable[[pytest.MonkeyPatch], object], list[str], set
 @pytest.mark.slow
 @pytest.mark.mutant("{mistake}, in all answers alike")
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_what_all_answers_share_is_seen(
-    mistake: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_all_answers_share_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     plant, names, seen = MISTAKES[mistake]
     plant(monkeypatch)
     for name in names:
-        failing = {check.name for check in checks(tmp_path, name).values() if not check.holds}
+        failing = broken(checks(name).values())
         assert seen <= failing, (name, failing)

@@ -7,14 +7,13 @@ height, and of a bar that swings from one side to a stop.
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import certified
+from given.certified import certified, stated
 
 from textmech.cases.case import Case
 from textmech.reference.certificate import certify, errors
@@ -29,7 +28,6 @@ from textmech.reports.compare.events.times import reference_events
 
 SAMPLES = 11
 MANY = 20  # random scenes a seed
-SEEDS = [1, *(pytest.param(k, marks=pytest.mark.slow) for k in range(2, 9))]
 WIDE = 1e4  # times ε of the size over the slope: what is stated more coarsely says nothing
 
 
@@ -122,7 +120,7 @@ def swing(rng: np.random.Generator) -> Known:
     return Known(system, swinging(length, begin, low), slope, 100.0)
 
 
-def stated(known: Known) -> tuple[float, float]:
+def followed(known: Known) -> tuple[float, float]:
     """By how much [s] the time of the first event is off, and may be."""
     until = 1.5 * float(known.time)
     found = follow(known.system, np.linspace(0.0, until, SAMPLES))
@@ -140,34 +138,21 @@ def drawn(kind: str, seed: int) -> list[Known]:
         return [KINDS[kind](rng) for _ in range(MANY)]
 
 
+Patch = pytest.MonkeyPatch
+
+
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(
-    "seed", [1, *(pytest.param(k, marks=pytest.mark.slow) for k in range(2, 9))]
-)
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_the_time_of_an_event_is_off_by_no_more_than_is_stated(kind: str, seed: int) -> None:
     with mpmath.workdps(40):
         for known in drawn(kind, seed):
-            off, may = stated(known)
+            off, may = followed(known)
             assert off <= may
             coarse = errors.EPS * (known.size / known.slope + float(known.time))
             assert may <= WIDE * coarse, known
 
 
-PULLED = """\
-scene:
-  gravity: none
-  points: {O: [0, 0], hook: {at: [HOOK, 0], velocity: [U, 0]}}
-  bodies: {block: {particle: {mass: 1}}}
-  joints:
-    guide: {slide: [ground.O, block.center], along: [1, 0],
-            dry_friction: {static: STATIC, kinetic: KINETIC}}
-  forces: {coil: {spring: [block.center, ground.hook], stiffness: STIFF, rest_length: 0.5}}
-initial: {block: {x: 0, vx: 0}}
-allow: {block.x: 1.0e-3}
-"""
-
-
-def stopping(tmp_path: Path, rng: np.random.Generator) -> tuple[float, float]:
+def stopping(rng: np.random.Generator) -> tuple[float, float]:
     """By how much [s] the stop of a block on a spring that is pulled is off, and may be.
 
     v = u (1 − cos ω τ) + a ω sin ω τ, with a = (F_s − F)/c, is zero at tan(ω τ/2) = −a ω/u. The
@@ -180,57 +165,51 @@ def stopping(tmp_path: Path, rng: np.random.Generator) -> tuple[float, float]:
     omega, a = mpmath.sqrt(stiff), (mpmath.mpf(static) - mpmath.mpf(kinetic)) / stiff
     slips = (mpmath.mpf(static) / stiff - (mpmath.mpf(hook) - mpmath.mpf(0.5))) / u
     stops = slips + 2 * (mpmath.pi - mpmath.atan(a * omega / u)) / omega
-    numbers = {"HOOK": hook, "U": u, "STATIC": static, "KINETIC": kinetic, "STIFF": stiff}
-    text = PULLED
-    for word, number in numbers.items():
-        text = text.replace(word, repr(float(number)))
-    until = float(stops + a / u / 2)
-    case = scenes.typed(tmp_path, text, tail=scenes.tail(until, SAMPLES))
+    text = f"""\
+scene:
+  points: {{hook: {{at: [{hook!r}, 0], velocity: [{u!r}, 0]}}}}
+  forces: {{coil: {{spring: [block.center, ground.hook], stiffness: {stiff!r}, rest_length: 0.5}}}}
+duration: {float(stops + a / u / 2)!r}
+samples: {SAMPLES}
+"""
+    case = scenes.scene("dry_slide", text, static=static, kinetic=kinetic)
     system = scenes.mechanism(case)
     found = follow(system, case.times)
     return abs(float(found.changes[1].time - stops)), untimed(system, found)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1, 5))
-def test_the_time_of_a_stop_is_off_by_no_more_than_is_stated(seed: int, tmp_path: Path) -> None:
-    rng = np.random.default_rng(seed)
-    with mpmath.workdps(40):
-        for _ in range(MANY):
-            off, may = stopping(tmp_path, rng)
-            assert off <= may
-
-
-@pytest.mark.slow
 @pytest.mark.mutant("the rounding of forces left out of what a guard is known to")
-def test_a_force_that_is_known_exactly_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(timed, "noise", lambda f, t, y, h, peak: None)
-    rng = np.random.default_rng(1)
+def test_the_time_of_a_stop_is_off_by_no_more_than_is_stated(monkeypatch: Patch) -> None:
     with mpmath.workdps(40):
-        found = [stopping(tmp_path, rng) for _ in range(MANY)]
+        rng = np.random.default_rng(1)
+        for _ in range(MANY):
+            off, may = stopping(rng)
+            assert off <= may
+        monkeypatch.setattr(timed, "noise", lambda f, t, y, h, peak: None)
+        rng = np.random.default_rng(1)
+        found = [stopping(rng) for _ in range(MANY)]
     assert any(off > 100.0 * may for off, may in found)
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("the slope of a guard left out of what is stated of its event's time: a {kind}")
 @pytest.mark.parametrize("kind", ["throw", "swing"])
-def test_an_error_without_the_slope_is_seen(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_error_without_the_slope_is_seen(kind: str, monkeypatch: Patch) -> None:
     """As it was: a time was known as well as a double is, however flat the guard."""
     monkeypatch.setattr(timed, "_within", lambda g, room, t, most: math.ulp(t))
     with mpmath.workdps(40):
-        found = [stated(known) for known in drawn(kind, 1)]
+        found = [followed(known) for known in drawn(kind, 1)]
     assert any(off > 100.0 * may for off, may in found)
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("the state's own error left out of what a guard is known to")
-def test_a_guard_that_is_known_exactly_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_guard_that_is_known_exactly_is_seen(monkeypatch: Patch) -> None:
     monkeypatch.setattr(timed, "sizes", lambda peak, tolerance: 0.0 * peak)
     monkeypatch.setattr(timed, "EPS", 0.0)
     with mpmath.workdps(40):
-        found = [stated(known) for known in drawn("throw", 1)]
+        found = [followed(known) for known in drawn("throw", 1)]
     assert any(off > may for off, may in found)
 
 
@@ -243,55 +222,37 @@ def test_what_is_left_of_one_event_is_left_of_the_next() -> None:
     assert many > len(known) / 2 * few > 0.0
 
 
-STATED = "error of lands.time"
-
-
-def lands(monkeypatch: pytest.MonkeyPatch, late: float) -> float:
-    """What is stated of a landing, if its guard leaves so much [s] open."""
-    monkeypatch.setattr(certify, "untimed", lambda system, followed: late)
-    (found,) = (c.certified for c in certified(scenes.SHIPPED["landing"]) if c.name == STATED)
-    assert found is not None
-    return found
-
-
 @pytest.mark.slow
-def test_what_a_guard_leaves_open_is_stated(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert lands(monkeypatch, 1e-6) == 1e-6
+def test_what_a_guard_leaves_open_is_stated(monkeypatch: Patch) -> None:
+    monkeypatch.setattr(certify, "untimed", lambda system, followed: 1e-6)
+    checks = {check.name: check for check in certified(scenes.SHIPPED["landing"])}
+    assert checks["error of lands.time"].certified == 1e-6
 
 
-PASSES = """\
-scene:
-  bodies: {ball: {particle: {mass: 1.0}}}
-initial: {ball: {x: 0.0, y: 0.0, vx: VX, vy: VY}}
-events: {passes: {ball.y: {rises to: HEIGHT}}}
-allow: {ball.y: 1.0e-3, passes.time: 1.0e-2}
-"""
-SWINGS = """\
-scene:
-  points: {O: [0.0, 0.0]}
-  bodies: {bar: {bar: {mass: 1.0, length: LENGTH}}}
-  joints: {hinge: {pin: [ground.O, bar.start]}}
-initial: {bar: {angle: BEGIN}}
-events: {passes: {bar.angle: {falls to: END}}}
-allow: {bar.angle: 1.0e-3, passes.time: 1.0e-2}
-"""
-
-
-def passing(tmp_path: Path, kind: str, depth: float, seed: int) -> tuple[Case, Any]:
+def passing(kind: str, depth: float, seed: int) -> tuple[Case, Any]:
     """A throw above a height, or a bar beyond an angle, that it exceeds by that part; and when."""
     rng = np.random.default_rng(seed)
     if kind == "throw":
         vx, vy = rng.uniform(0.0, 3.0), rng.uniform(1.0, 10.0)
         height = vy**2 / (2.0 * G) * (1.0 - depth)
-        text, numbers, time = PASSES, {"VX": vx, "VY": vy, "HEIGHT": height}, rising(vy, height)
-    else:
-        length, begin = rng.uniform(0.3, 2.0), rng.uniform(-0.5, 1.4)
-        end = -math.pi - begin + depth * (begin + math.pi / 2)
-        text, numbers = SWINGS, {"LENGTH": length, "BEGIN": begin, "END": end}
-        time = swinging(length, begin, end)
-    for word, number in numbers.items():
-        text = text.replace(word, repr(float(number)))
-    return scenes.typed(tmp_path, text, tail=scenes.tail(1.3 * float(time), 26)), time
+        time = rising(vy, height)
+        text = f"""\
+scene: {{bodies: {{ball: {{particle: {{mass: 1.0}}}}}}}}
+initial: {{ball: {{x: 0.0, y: 0.0, vx: {vx!r}, vy: {vy!r}}}}}
+events: {{passes: {{ball.y: {{rises to: {height!r}}}}}}}
+allow: {{ball.y: 1.0e-3, passes.time: 1.0e-2}}
+"""
+        return scenes.parsed(text, tail=scenes.tail(1.3 * float(time), 26)), time
+    length, begin = rng.uniform(0.3, 2.0), rng.uniform(-0.5, 1.4)
+    end = -math.pi - begin + depth * (begin + math.pi / 2)
+    time = swinging(length, begin, end)
+    text = f"""\
+initial: {{bar: {{angle: {begin!r}}}}}
+events: {{passes: {{bar.angle: {{falls to: {end!r}}}}}}}
+duration: {1.3 * float(time)!r}
+allow: {{bar.angle: 1.0e-3, hinge.fx: null, passes.time: 1.0e-2}}
+"""
+    return scenes.scene("pendulum", text, l=length), time
 
 
 def passed(case: Case, time: Any) -> tuple[float, float]:
@@ -300,30 +261,23 @@ def passed(case: Case, time: Any) -> tuple[float, float]:
     record = solution.trajectory.record
     assert record is not None
     (found,) = reference_events(case.scene, record, case.events["passes"])
-    (may,) = (c.certified for c in solution.checks if c.name == "error of passes.time")
-    assert may is not None
-    return abs(float(mpmath.mpf(float(found)) - time)), may
+    return abs(float(mpmath.mpf(float(found)) - time)), stated(solution)["passes.time"]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["throw", "swing"])
-@pytest.mark.parametrize("depth", [0.5, 1e-2, 1e-4, 1e-6, 1e-7])
-@pytest.mark.parametrize("seed", [1, 2])
-def test_the_time_of_a_passage_is_off_by_no_more_than_is_stated(
-    kind: str, depth: float, seed: int, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("depth", [0.5, 1e-4, 1e-7])
+def test_the_time_of_a_passage_is_off_by_no_more_than_is_stated(kind: str, depth: float) -> None:
     with mpmath.workdps(40):
-        off, may = passed(*passing(tmp_path, kind, depth, seed))
+        off, may = passed(*passing(kind, depth, 1))
         assert off <= may <= 1e-13 / math.sqrt(depth)
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("the slope of a quantity left out of what is stated of its passage: a {kind}")
 @pytest.mark.parametrize("kind", ["throw", "swing"])
-def test_a_passage_without_its_slope_is_seen(
-    kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_passage_without_its_slope_is_seen(kind: str, monkeypatch: Patch) -> None:
     monkeypatch.setattr(errors, "unread", lambda *_: 0.0)
     with mpmath.workdps(40):  # of which one, rounding decides
-        each = (passed(*passing(tmp_path, kind, 1e-7, seed)) for seed in range(1, 9))
+        each = (passed(*passing(kind, 1e-7, seed)) for seed in range(1, 9))
         assert any(off > may for off, may in each)

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,10 +19,13 @@ from textmech.reference.solve import solve
 from textmech.reference.system import Array, Guard, System
 from textmech.reference.systems.contact.bouncing_disk import BouncingDisk
 
+Patch = pytest.MonkeyPatch
+G = 9.80665  # m/s²
+
 
 def limit(e: float) -> float:
     """t₁ + 2 t₁ (e + e² + …) [s]: where the bounces of `disk` end."""
-    return math.sqrt(2 * 0.5 / 9.80665) * (1 + e) / (1 - e)
+    return math.sqrt(2 * 0.5 / G) * (1 + e) / (1 - e)
 
 
 def disk(e: float) -> BouncingDisk:
@@ -31,8 +33,8 @@ def disk(e: float) -> BouncingDisk:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("e", [0.001, 0.2, 0.5, 0.9])
-def test_a_disk_that_bounces_ever_lower_rests(e: float):
+@pytest.mark.parametrize("e", [0.001, 0.9])
+def test_a_disk_that_bounces_ever_lower_rests(e: float) -> None:
     times = np.linspace(0.0, 2 * limit(e), 41)
     found = follow(disk(e), times)
     assert found.modes[0] == "flight"
@@ -43,39 +45,38 @@ def test_a_disk_that_bounces_ever_lower_rests(e: float):
     assert len(found.events) == len(disk(e).closed_events(times[-1]))
 
 
-def test_heights_between_the_bounces():
+def test_bounces_whose_end_the_motion_does_not_reach_are_all_there() -> None:
     """eᵏ g t₁ after the k-th: a bounce that gave back e each time from the first would be seen."""
-    impacts = [t for _, t in disk(0.5).closed_events(0.95)]
-    middles = (np.array(impacts[1:-1]) + impacts[2:]) / 2
+    known = [t for _, t in disk(0.5).closed_events(0.95)]
+    found = follow(disk(0.5), np.linspace(0.0, 0.95, 10))  # it would end at 0.958 s
+    assert [e.time for e in found.events] == pytest.approx(known, abs=1e-12, rel=0)
+    middles = (np.array(known[1:-1]) + known[2:]) / 2
     tops = [disk(0.5).closed_form(t)[0][0] for t in middles.tolist()]
     np.testing.assert_allclose(tops, 0.5 * 0.25 ** np.arange(2, len(tops) + 2), rtol=1e-9)
 
 
-THROWN = """\
-scene:
-  bodies: {wheel: {disk: {mass: 2, radius: 0.25}}}
-  contacts: {touch: {between: [wheel, ground.floor], friction: 0.4, restitution: 0.5}}
-initial: {wheel: {x: 0, y: 1.25, angle: 0, vx: VX, vy: 0, omega: 0}}
-events: {bounces: {touch.gap: falls to zero}}
-allow: {wheel.x: 1.0e-3}
-"""
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("vx", "mode"), [(1.0, "touch sticks"), (30.0, "touch slides +")])
-def test_what_it_does_on_the_floor_after_the_last_bounce(tmp_path: Path, vx: float, mode: str):
+def test_what_it_does_on_the_floor_after_the_last_bounce(vx: float, mode: str) -> None:
     """Friction has had μ times the momentum of the floor, m (2 g t₁ + … + g τ), or it rolls."""
-    case = scenes.typed(tmp_path, THROWN.replace("VX", str(vx)), tail=scenes.tail(2.0, 26))
+    text = f"""\
+scene:
+  bodies: {{wheel: {{disk: {{mass: 2, radius: 0.25}}}}}}
+  contacts: {{touch: {{between: [wheel, ground.floor], friction: 0.4, restitution: 0.5}}}}
+initial: {{wheel: {{x: 0, y: 1.25, angle: 0, vx: {vx}, vy: 0, omega: 0}}}}
+events: {{bounces: {{touch.gap: falls to zero}}}}
+allow: {{wheel.x: 1.0e-3}}
+"""
+    case = scenes.parsed(text, tail=scenes.tail(2.0, 26))
     found = follow(scenes.mechanism(case), case.times)
     assert found.modes[-1] == mode
-    v = vx - 0.4 * 9.80665 * 2.0 if vx > 10.0 else vx * 2 / 3
-    t1 = math.sqrt(2 * 1.0 / 9.80665)
-    assert 3 * t1 < 1.4  # the last bounce
+    v = vx - 0.4 * G * 2.0 if vx > 10.0 else vx * 2 / 3
+    assert 3 * math.sqrt(2 * 1.0 / G) < 1.4  # the last bounce
     np.testing.assert_allclose(found.y[-1, 3], v, rtol=1e-11)
     np.testing.assert_allclose(found.y[-1, [1, 4]], [0.25, 0.0], atol=1e-12)
 
 
-def test_a_system_that_knows_no_rest_ends_with_a_message():
+def test_a_system_that_knows_no_rest_ends_with_a_message() -> None:
     """Without `at_last` the events have no limit to go on from."""
 
     class Endless(BouncingDisk):
@@ -88,16 +89,8 @@ def test_a_system_that_knows_no_rest_ends_with_a_message():
     assert limit(0.5) * (1 - 1e-4) < caught.value.time < limit(0.5)
 
 
-def test_zeno_sequence_that_the_motion_does_not_reach_is_none():
-    times = np.linspace(0.0, 0.9, 10)  # it would end at 0.958 s
-    found = follow(disk(0.5), times)
-    assert [e.time for e in found.events] == pytest.approx(
-        [t for _, t in disk(0.5).closed_events(0.9)], abs=1e-12, rel=0
-    )
-
-
 @pytest.mark.slow
-def test_more_events_than_anyone_wants_end_with_a_message(monkeypatch: pytest.MonkeyPatch):
+def test_more_events_than_anyone_wants_end_with_a_message(monkeypatch: Patch) -> None:
     monkeypatch.setattr(event, "MOST", 30)
     beats = Watched([("beats", lambda t, x, v: math.cos(100 * t))], Still())
     beats.longest = 0.01
@@ -122,72 +115,72 @@ class Chatter(System):
 
 
 @pytest.mark.parametrize("limit", [False, True])
-def test_modes_that_end_where_they_begin_end_with_a_message(limit: bool):
+def test_modes_that_end_where_they_begin_end_with_a_message(limit: bool) -> None:
     """Soon: a motion that rests nowhere would else go on for thousands of events."""
-    chatter = Chatter(limit=limit)
     with pytest.raises(ZenoError, match="'turns o") as caught:
-        follow(chatter, np.array([0.0, 1.0]))
+        follow(Chatter(limit=limit), np.array([0.0, 1.0]))
     assert caught.value.time == 0.0
 
 
-def test_accumulation():
-    distances = 0.5 ** np.arange(1, 7)
-    instants = np.cumsum(distances).tolist()
-    assert accumulation(instants) == pytest.approx(1.0)
-    assert accumulation(instants[:-1]) is None
-    assert accumulation(list(range(6))) is None
-
-
-def test_the_slowest_of_the_last_distances_tells():
-    """Halved once and hardly shorter from then on: at 0.49 of 0.5 they come to 25, not to 2.5."""
-    instants = np.cumsum([0.0, 1.0, 0.5, 0.49, 0.48, 0.47]).tolist()
-    limit = accumulation(instants)
-    assert limit == pytest.approx(instants[-1] + 0.47 * 0.98 / 0.02)  # of 0.49/0.5
-    assert limit is not None
-    assert not ends_here(limit, instants[-1], 0.0, 10.0)
-
-
 @pytest.mark.mutant("an accumulation by the quickest of its distances")
-def test_the_quickest_of_the_distances_is_seen(monkeypatch: pytest.MonkeyPatch):
+def test_the_slowest_of_the_last_distances_tells(monkeypatch: Patch) -> None:
+    """Halved once and hardly shorter from then on: at 0.49 of 0.5 they come to 25, not to 2.5."""
+    halved = np.cumsum(0.5 ** np.arange(1, 7)).tolist()
+    assert accumulation(halved) == pytest.approx(1.0)
+    assert accumulation(halved[:-1]) is None
+    assert accumulation(list(range(6))) is None
+    instants = np.cumsum([0.0, 1.0, 0.5, 0.49, 0.48, 0.47]).tolist()
+    known = instants[-1] + 0.47 * 0.98 / 0.02  # of 0.49/0.5
+    found = accumulation(instants)
+    assert found == pytest.approx(known)
+    assert found is not None
+    assert not ends_here(found, instants[-1], 0.0, 10.0)
     monkeypatch.setattr(module, "np", SimpleNamespace(diff=np.diff, max=np.min))
-    with pytest.raises(AssertionError):
-        test_the_slowest_of_the_last_distances_tells()
+    assert accumulation(instants) != pytest.approx(known)
 
 
-def test_distances_that_stay_pile_up_nowhere():
+def test_distances_that_stay_pile_up_nowhere() -> None:
     assert settles("bounces", [0.0, 1.0, 1.5, 1.99], 10.0) is None
     assert settles("bounces", [0.0, 1.0, 1.0 + 1e-13], 10.0) == pytest.approx(1e-26, rel=1e-2)
 
 
+@pytest.mark.mutant("the limit of a pile is found by a wrong sum")
+@pytest.mark.parametrize("ratio", [0.1, 0.9])
+def test_what_is_left_of_a_pile_is_the_geometric_sum(ratio: float) -> None:
+    """d r + d r² + … = d r / (1 − r) after the last of instants whose distances are d rᵏ."""
+    instants = np.cumsum([0.0, *(0.3 * ratio ** np.arange(6))])
+    assert instants[-1] + module.left(instants) == pytest.approx(0.3 / (1.0 - ratio), rel=1e-12)
+
+
 STRUCK = """\
 scene:
-  bodies: {p: {particle: {mass: 1.0}}, B: {disk: {mass: 1.0, radius: 0.2}}}
+  bodies: {{p: {{particle: {{mass: 1.0}}}}, B: {{disk: {{mass: 1.0, radius: 0.2}}}}}}
   contacts:
-    f: {between: [p, ground.floor], friction: 0, restitution: 1}
-    k: {between: [p, B], friction: 0, restitution: 1}
+    f: {{between: [p, ground.floor], friction: 0, restitution: 1}}
+    k: {{between: [p, B], friction: 0, restitution: 1}}
 initial:
-  p: {x: 0, y: 0.3, vx: 0, vy: 0}
-  B: {x: 0, y: HEIGHT, vx: 0, vy: -3, angle: 0, omega: 0}
-events: {lands: {f.gap: falls to zero}, hits: {k.gap: falls to zero}}
-duration: DURATION
+  p: {{x: 0, y: 0.3, vx: 0, vy: 0}}
+  B: {{x: 0, y: {height!r}, vx: 0, vy: -3, angle: 0, omega: 0}}
+events: {{lands: {{f.gap: falls to zero}}, hits: {{k.gap: falls to zero}}}}
+duration: {duration}
 samples: 61
-allow: {p.y: 1.0e-6, B.y: 1.0e-6, lands.time: 1.0e-6}
+allow: {{p.y: 1.0e-6, B.y: 1.0e-6, lands.time: 1.0e-6}}
 """
 
 
 def struck(height: float, times: Array) -> Array:
     """(N, 2) [m] of a particle and an equal disk that falls on it, by flights and blows alone."""
-    g, t = 9.80665, 0.0
+    t = 0.0
     y, v = np.array([0.3, height]), np.array([0.0, -3.0])
     found = []
     for sample in times.tolist():
         while True:
-            lands = (v[0] + math.sqrt(v[0] ** 2 + 2 * g * y[0])) / g
+            lands = (v[0] + math.sqrt(v[0] ** 2 + 2 * G * y[0])) / G
             gap, closing = y[1] - y[0] - 0.2, v[0] - v[1]
             hits = gap / closing if closing > 0 else math.inf
             first = min(lands, hits)
             ahead = min(first, sample - t)
-            y, v, t = y + v * ahead - g * ahead * ahead / 2, v - g * ahead, t + ahead
+            y, v, t = y + v * ahead - G * ahead * ahead / 2, v - G * ahead, t + ahead
             if first > ahead:
                 break
             v = v[::-1].copy() if hits <= lands else v * [-1.0, 1.0]
@@ -197,13 +190,10 @@ def struck(height: float, times: Array) -> Array:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("height", "duration"), [(5.12743, 1.2), (5.1389, 1.2), (5.1389, 9.6)])
-def test_two_blows_soon_after_each_other_end_no_motion(
-    height: float, duration: float, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize(("height", "duration"), [(5.12743, 1.2), (5.1389, 9.6)])
+def test_two_blows_soon_after_each_other_end_no_motion(height: float, duration: float) -> None:
     """A tenth of a millisecond after a bounce it is thrown back at the floor, and flies on."""
-    text = STRUCK.replace("HEIGHT", repr(height)).replace("DURATION", repr(duration))
-    case = scenes.typed(tmp_path, text, tail="")
+    case = scenes.parsed(STRUCK.format(height=height, duration=duration), tail="")
     moved = solve(case).trajectory.states
     y = np.stack([moved["p"][:, 1], moved["B"][:, 1]], axis=1)
     assert y == pytest.approx(struck(height, case.times), abs=1e-7)
@@ -211,15 +201,20 @@ def test_two_blows_soon_after_each_other_end_no_motion(
 
 @pytest.mark.mutant("two blows soon after each other taken for the end of all bounces")
 @pytest.mark.slow
-def test_the_end_of_bounces_that_fly_on_is_seen(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_the_end_of_bounces_that_fly_on_is_seen(monkeypatch: Patch) -> None:
     monkeypatch.setattr(event, "gone", lambda *_: True)
     with pytest.raises(AssertionError):
-        test_two_blows_soon_after_each_other_end_no_motion(5.12743, 1.2, tmp_path)
+        test_two_blows_soon_after_each_other_end_no_motion(5.12743, 1.2)
 
 
-RUBS = """\
+@pytest.mark.slow
+@pytest.mark.mutant("what turns round between bounces without end ends the motion")
+def test_what_rubs_between_bounces_rests_after_the_last(monkeypatch: Patch) -> None:
+    """Falls of a = g − 1, rises of g + 1: a bounce has e √((g − 1)/(g + 1)) of the speed before.
+
+    It takes v/(g + 1) up and, from v²/2(g + 1), √(…) down; all of them together are geometric.
+    """
+    text = """\
 scene:
   points: {O: [0, 0]}
   bodies: {b: {disk: {mass: 1.0, radius: 0.1}}}
@@ -229,42 +224,17 @@ initial: {r: {shift: 0.5}}
 events: {l: {f.gap: falls to zero}}
 allow: {b.y: 1.0e-2}
 """
-
-
-@pytest.mark.slow
-def test_what_rubs_between_bounces_rests_after_the_last(tmp_path: Path) -> None:
-    """Falls of a = g − 1, rises of g + 1: a bounce has e √((g − 1)/(g + 1)) of the speed before.
-
-    It takes v/(g + 1) up and, from v²/2(g + 1), √(…) down; all of them together are geometric.
-    """
-    motion = solve(scenes.typed(tmp_path, RUBS, tail=scenes.tail(1.2, 41)))
+    case = scenes.parsed(text, tail=scenes.tail(1.2, 41))
+    motion = solve(case)
     assert motion.holds
-    g, e = 9.80665, 0.5
-    v, share = math.sqrt(2 * (g - 1) * 0.4), e * math.sqrt((g - 1) / (g + 1))
-    up = e * v / (g + 1)
-    known = v / (g - 1) + up * (1 + math.sqrt((g + 1) / (g - 1))) / (1 - share)
+    v, share = math.sqrt(2 * (G - 1) * 0.4), 0.5 * math.sqrt((G - 1) / (G + 1))
+    up = 0.5 * v / (G + 1)
+    known = v / (G - 1) + up * (1 + math.sqrt((G + 1) / (G - 1))) / (1 - share)
     (pile,) = motion.trajectory.endless
     assert 0.0 < known - pile[-1] < pile[-1] - pile[-2]  # all that would follow is less
     last = motion.trajectory.states["b"][-1]
     assert last[1] == pytest.approx(0.1, abs=1e-12)
     assert not last[3:].any()
-
-
-@pytest.mark.slow
-@pytest.mark.mutant("what turns round between bounces without end ends the motion")
-def test_friction_that_ends_the_bounces_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
     monkeypatch.setattr(event._Walk, "_is_passed", lambda *_: False)
     with pytest.raises(CaseError, match="'r stops' happens thousands of times or without end"):
-        solve(scenes.typed(tmp_path, RUBS, tail=scenes.tail(1.2, 41)))
-
-
-@pytest.mark.mutant("the limit of a pile is found by a wrong sum")
-@pytest.mark.parametrize("ratio", [0.1, 0.5, 0.9])
-def test_what_is_left_of_a_pile_is_the_geometric_sum(ratio: float) -> None:
-    """d r + d r² + … = d r / (1 − r) after the last of instants whose distances are d rᵏ."""
-    distances = 0.3 * ratio ** np.arange(6)
-    instants = np.cumsum([0.0, *distances])
-    limit = 0.3 / (1.0 - ratio)
-    assert instants[-1] + module.left(instants) == pytest.approx(limit, rel=1e-12)
+        solve(case)
