@@ -1,4 +1,4 @@
-"""Shipped cases with their solutions, those of `tests/scenes` by name, and cases typed in a test."""
+"""Shipped cases with their solutions, those of `tests/scenes` by name, and typed ones."""
 
 import json
 from collections.abc import Mapping
@@ -6,6 +6,8 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
+
+from ruamel.yaml import YAML
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped
@@ -45,19 +47,21 @@ def mechanism(case: Case) -> Any:
 SCENES = Path(__file__).parents[1] / "scenes"
 
 
-def scene_text(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> str:
+def scene_text(name: str, changes: Mapping[str, Any] | str | None = None, **parameters: Any) -> str:
     """Returns the case file `tests/scenes/<name>.yaml` with other parameters and other entries.
 
-    Every parameter must be one of the file. changes: as in a variant, a map goes into a map key by
-    key, anything else replaces what stands there; None removes the key.
+    Every parameter must be one of the file. changes: as in a variant, or as its text; a map goes
+    into a map key by key, anything else replaces what stands there; None removes the key.
     """
+    if isinstance(changes, str):
+        changes = YAML(typ="safe", pure=True).load(changes)
     data = read(SCENES / f"{name}.yaml").data
     unknown = set(parameters) - set(data.get("parameters", {}))
     assert not unknown, f"{name}.yaml has no parameter {', '.join(sorted(unknown))}"
     return json.dumps(_merged(data, {"parameters": parameters, **(changes or {})}), indent=1)
 
 
-def scene(name: str, changes: Mapping[str, Any] | None = None, **parameters: Any) -> Case:
+def scene(name: str, changes: Mapping[str, Any] | str | None = None, **parameters: Any) -> Case:
     """Returns the case of `scene_text`: `scene("slope", mu=0.3)`."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / f"{name}.yaml"
@@ -96,3 +100,9 @@ def typed(tmp_path: Path, scene: str, *, tail: str = TAIL) -> Case:
     path = tmp_path / "typed.yaml"
     path.write_text(HEAD + scene + tail, encoding="utf-8")
     return load(path)[0]
+
+
+def parsed(scene: str, *, tail: str = TAIL) -> Case:
+    """Returns the case with this scene and start, as `typed` does, from a folder of its own."""
+    with TemporaryDirectory() as folder:
+        return typed(Path(folder), scene, tail=tail)

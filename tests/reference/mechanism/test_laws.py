@@ -1,12 +1,14 @@
-"""Mistakes planted in the explicit accelerations only, and the law that must see each."""
+"""The laws of every generated mode at random states, and the mistakes that they see."""
 
 from collections.abc import Callable
 from dataclasses import replace
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 from given import random_scenes
+from given.engine_scenes import BOX, G, machine, pin
 from given.multibody_laws import EXACT, Law, balance, lagrangian
 
 from textmech.cases.scene import (
@@ -19,12 +21,49 @@ from textmech.cases.scene import (
     planar_joint,
     shape,
 )
+from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reference.mechanism.constraints.constraint_terms import Line
 from textmech.reference.mechanism.forces import action
 from textmech.reference.mechanism.kinematics.frame import Vec
 from textmech.reference.mechanism.kinematics.kinematics import Kinematics, Part, Point, Row
 from textmech.reference.mechanism.modes.mode import Multibody
 from textmech.reference.system import Array
+
+COUNT = 60  # random scenes: every kind of body, joint and force comes ten times and more
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", [lagrangian, balance])
+def test_law_on_random_scenes(law: Law) -> None:
+    found = [
+        law(m, *random_scenes.state(random, m)) for m, random in random_scenes.mechanisms(COUNT)
+    ]
+    assert max(found) < EXACT
+
+
+@pytest.mark.slow
+def test_the_random_scenes_have_everything() -> None:
+    """Negative control of the generator: each kind of part appears, loops and driven points too."""
+    made = [m.scene for m, _ in random_scenes.mechanisms(COUNT)]
+    shapes = {b.shape for s in made for b in s.bodies.values()}
+    joints = {j.kind for s in made for j in s.joints.values()}
+    laws = {(type(f).__name__, f.signal.law) for s in made for f in s.signals()}
+    assert shapes == {"bar", "block", "disk", "rigid", "particle"}
+    assert joints == {"pin", "slide", "weld"}
+    assert len(laws) == 6
+    assert sum("loop" in s.joints for s in made) >= 5
+    assert sum(len(s.contacts) for s in made) >= 5
+    assert sum(j.a == Anchor(GROUND, "hook") for s in made for j in s.joints.values()) >= 5
+
+
+def test_forces_that_nearly_cancel_leave_an_acceleration() -> None:
+    """Down a slope of s ≪ 1 a block falls by s² g: the rail's force is short of that alone."""
+    slope = np.sqrt(1e-7)
+    along = np.cos(slope), -np.sin(slope)
+    rail = pin("rail", "ground.O", "box.center", "slide", along=along)
+    mechanism = Multibody(machine([BOX], [rail]), (np.zeros(3), np.zeros(3)))
+    a = mechanism.accelerations(0.0, np.zeros(3), np.zeros(3))
+    assert a == pytest.approx([G * -along[1] * along[0], -G * along[1] ** 2, 0.0], rel=1e-8)
 
 
 def heavier(body: Body) -> Body:
@@ -136,3 +175,26 @@ def test_lagrange_sees_a_wrong_convective_term(
     monkeypatch.setattr(kind, name, wrong)
     assert seen(lagrangian, mutated()) > 1e-4
     assert seen(balance, mutated()) < EXACT
+
+
+FORMS = (voronets, chaplygin, appell)
+FEW = 30  # random scenes
+
+
+def apart(mode: Multibody, form: ModuleType, t: float, q: Array, v: Array) -> float | None:
+    """Relative to the accelerations, or what each force alone would give; None: does not apply."""
+    a, found = mode.accelerations(t, q, v), form.accelerations(mode, t, q, v)
+    size = max(np.max(np.abs(a)), mode.terms(t, q, v)[0])
+    return None if found is None else float(np.max(np.abs(found - a)) / size)
+
+
+@pytest.mark.slow
+def test_random_scenes_without_multipliers() -> None:
+    applied = dict.fromkeys(FORMS, 0)
+    for mode, random in random_scenes.mechanisms(FEW):
+        at = random_scenes.state(random, mode)
+        for form in FORMS:
+            found = apart(mode, form, *at)
+            applied[form] += found is not None
+            assert found is None or found < EXACT
+    assert min(applied.values()) > FEW // 3
