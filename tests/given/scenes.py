@@ -53,12 +53,13 @@ def scene_text(name: str, changes: Mapping[str, Any] | str | None = None, **para
     Every parameter must be one of the file. changes: as in a variant, or as its text; a map goes
     into a map key by key, anything else replaces what stands there; None removes the key.
     """
+    entries: Any = changes
     if isinstance(changes, str):
-        changes = YAML(typ="safe", pure=True).load(changes)
+        entries = YAML(typ="safe", pure=True).load(changes)
     data = read(SCENES / f"{name}.yaml").data
     unknown = set(parameters) - set(data.get("parameters", {}))
     assert not unknown, f"{name}.yaml has no parameter {', '.join(sorted(unknown))}"
-    return json.dumps(_merged(data, {"parameters": parameters, **(changes or {})}), indent=1)
+    return json.dumps(_merged(data, {"parameters": parameters, **(entries or {})}), indent=1)
 
 
 def scene(name: str, changes: Mapping[str, Any] | str | None = None, **parameters: Any) -> Case:

@@ -49,21 +49,6 @@ def test_laws_and_typed_forces() -> None:
     assert mode.applied(0.0, q, v)[-2:] == pytest.approx(expected, rel=1e-14)
 
 
-@pytest.mark.slow
-def test_quantities_and_certificate() -> None:
-    case = scenes.parsed(slowed.SLOWED)
-    solution = solve(case)
-    assert solution.holds
-    assert {"2.48", "2.49", "2.84", "2.86"} <= solution.equations
-    motion = solution.trajectory
-    speed, force = (observe(case.scene, motion, f"oil.{field}") for field in ("speed", "force"))
-    assert observe(case.scene, motion, "air.force")[0] == pytest.approx(0.4 * 1.6**2, rel=1e-12)
-    assert min(speed) < -0.05
-    assert max(speed) > 0.1
-    d = np.where(speed > 0, 0.8, 1.7)
-    np.testing.assert_allclose(force, -d * speed * np.sqrt(np.abs(speed)), rtol=1e-12)
-
-
 def opposite(loads: Any) -> Any:
     return lambda *given: [(part, -F, None if M is None else -M) for part, F, M in loads(*given)]
 
@@ -302,6 +287,7 @@ def test_alone_it_stops_and_is_refused_from_there_on(alpha: float) -> None:
     ends = 2.0 ** (1 - alpha) / ((1 - alpha) * 2.0 / 0.3)
     mistake = refused(dragged(alpha, 2.0, scenes.tail(1.5 * ends, 25), vx=2.0))
     assert mistake.where == "scene.forces.air"
+    assert "stops ball.center" in mistake.what
     # it is told where a millionth of the speed is left
     left = 1e-6 ** (1 - alpha) * ends
     told = float(mistake.what.split("t = ")[1].split(" s")[0])
@@ -313,7 +299,7 @@ def test_alone_it_stops_and_is_refused_from_there_on(alpha: float) -> None:
 @pytest.mark.mutant("a stop of drag by a power below 1 taken for a passing")
 def test_a_stop_taken_for_a_passing_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(mechanism, "OTHERS", 0.0)
-    assert "stops ball.center" not in refused(dragged(0.5, 2.0, scenes.tail(0.5, 25), vx=2.0)).what
+    assert "stops ball.center" not in refused(dragged(0.3, 2.0, scenes.tail(0.4, 11), vx=2.0)).what
 
 
 TOP = "events: {top: {block.vy: falls to zero}}\n"

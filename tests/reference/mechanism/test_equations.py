@@ -6,7 +6,7 @@ from dataclasses import replace
 import mpmath
 import numpy as np
 import pytest
-from given import random_machines, random_scenes, scenes
+from given import random_machines, scenes
 from given.engine_scenes import chain
 
 from textmech.cases.fields import number
@@ -67,7 +67,7 @@ def made(name: str) -> State:
     scene = SCENES[name]
     n = len(Coordinates(scene).names)
     mechanism = Multibody(scene, (np.zeros(n), np.zeros(n)))
-    return mechanism, *random_scenes.state(np.random.default_rng(4), mechanism)
+    return mechanism, *random_machines.state(np.random.default_rng(4), mechanism, 2.0)
 
 
 @pytest.fixture(params=SCENES)
@@ -172,11 +172,12 @@ def uneven(scene: Scene, random: np.random.Generator) -> Scene:
 def errors(count: int) -> list[float]:
     """Of the accelerations of random mechanisms, relative to the largest, or to gravity."""
     found = []
-    for base, random in random_scenes.mechanisms(count, seed=7):
+    random = np.random.default_rng(7)
+    for base in random_machines.machines(count):
         mode = Multibody(uneven(base.scene, random), base.start())
         if len(mode.f_a(0.0, mode.start()[0])) >= len(mode.coordinates):
             continue  # held: nothing is left to move
-        t, q, v = random_scenes.state(random, mode)
+        t, q, v = random_machines.state(random, mode)
         known = exact(mode, t, q, v)
         size = max(np.abs(known).max(), 9.80665)
         found.append(float(np.abs(mode.accelerations(t, q, v) - known).max() / size))

@@ -231,3 +231,31 @@ def test_a_walker_slips_where_friction_is_little() -> None:
     feet = {name: replace(foot, static=0.01, kinetic=0.01) for name, foot in contacts}
     with pytest.raises(CaseError, match="would slip"):
         solve(replace(CASE, system=None, scene=replace(CASE.scene, contacts=feet)))
+
+
+TOP = """\
+scene:
+  space: 3
+  bodies:
+    top:
+      rigid: {mass: 0.5, inertia: [3.5e-4, 3.5e-4, 6e-4, 0, 0, 0]}
+      points: {tip: [0, 0, -0.05]}
+  contacts:
+    touch: {between: [top.tip, ground.floor], friction: %s, ideal: pivot}
+initial: {top: {tip: [0, 0, 0], attitude: {axis: [1, 0, 0], angle: 25 deg}, omega: %s}}
+allow: {top.attitude: 1.0e-2, touch.normal: 1.0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("friction", "omega", "said"),
+    [
+        (0.05, "[0, 0.9, 150]", "pivoting is not possible with friction 0.05: at t = "),
+        (9.0, "[20, 0, 150]", "the floor would have to pull at t = 0 s: top leaves it"),
+    ],
+)
+def test_what_the_floor_cannot_hold_in_space(friction: float, omega: str, said: str) -> None:
+    case = parsed(TOP % (friction, omega), tail=tail(0.1, 3))  # type: ignore[arg-type]
+    mistake = refused(case)
+    assert mistake.where == "scene.contacts.touch.ideal"
+    assert mistake.what.startswith(said)
