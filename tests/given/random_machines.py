@@ -5,6 +5,7 @@ Whatever an engine has wrong in an orientation, a sign or an order shows at once
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cache, partial
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from textmech.cases.scene import (
 )
 from textmech.cases.scene.shape import bar, block, disk, particle, rigid
 from textmech.reference.mechanism.modes.mode import Multibody
+from textmech.reference.system import Array
 
 GRAVITY = (0.8, -9.7)  # not along an axis, so that no component can hide
 REGULAR = 0.05  # smallest singular value of the rows: nearer to singular, forces grow large
@@ -225,3 +227,23 @@ def rolling(seed: int, *, wheels: int) -> Build:
         build.join("pin", *((name, build.body(("bar",))) if i else (build.body(("bar",)), name)))
     build.load()
     return build
+
+
+@cache
+def machines(count: int) -> list[Multibody]:
+    """Returns trees, loops and pairs of rolling wheels, some of them on driven points."""
+    builds = []
+    for seed in range(count):
+        make = partial((tree, chain)[seed % 2], driven=seed % 4 < 2)
+        builds.append(make(seed) if seed % 3 else rolling(seed, wheels=2))
+    return [mechanism(build) for build in builds]
+
+
+def state(
+    random: np.random.Generator, machine: Multibody, spread: float = 0.0
+) -> tuple[float, Array, Array]:
+    """Returns t, places about those of the start, and rates that meet the rows there."""
+    n = len(machine.coordinates)
+    t, q = random.uniform(0.0, 3.0), machine.start()[0] + spread * random.uniform(-1.0, 1.0, n)
+    v, rows, g = random.uniform(-3.0, 3.0, n), machine.f_a(t, q), machine.g(t, q)
+    return float(t), q, v - np.linalg.lstsq(rows, rows @ v - g)[0] if len(rows) else v

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from given import scenes
 from given.refused import refused
-from given.rod import rod
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import solve
@@ -83,11 +82,11 @@ allow: {cart.x: 1.0e-3, cart.y: 1.0e-3, cart.vy: 1.0e-3}
 
 
 @pytest.mark.slow
-def test_a_contact_above_the_floor_has_to_say_so(tmp_path: Path) -> None:
-    mistake = refused(rod(tmp_path, y=0.01, unsaid=True))
+def test_a_contact_above_the_floor_has_to_say_so() -> None:
+    mistake = refused(scenes.scene("standing_bar", y=0.01))
     assert mistake.where == "scene.contacts.tip"
     assert "starts 0.01 m above the floor" in mistake.what
-    solve(rod(tmp_path, y=1e-10, mu=0.5, unsaid=True))
+    solve(scenes.scene("standing_bar", y=1e-10, mu=0.5))
 
 
 @pytest.mark.parametrize(("height", "lands"), [(2.0, True), (20.0, False)])

@@ -1,6 +1,6 @@
-"""Two bodies that touch, on a side that turns and on rims that move, against other derivations."""
+"""Two bodies that touch or strike each other, against other derivations."""
 
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,10 +11,15 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
+from textmech.cases.scene.pair import Pair
 from textmech.cases.trajectory import ANGLE, OMEGA, VX, VY, X, Y
-from textmech.reference.mechanism.constraints.constraint_terms import Apart, Around, Line
+from textmech.reference.mechanism.constraints.constraint import Constraint
+from textmech.reference.mechanism.constraints.constraint_terms import Apart, Around, Line, Turning
+from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.mechanism.kinematics.kinematics import Row
+from textmech.reference.mechanism.modes import unilateral as generated
 from textmech.reference.mechanism.modes.mechanism import BadStart
+from textmech.reference.mechanism.modes.unilateral import along
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 
@@ -53,13 +58,13 @@ def by_hand(times: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def tray(tmp_path: Path) -> Case:
-    return scenes.typed(tmp_path, TRAY, tail=scenes.tail(0.3, 16))
+def tray() -> Case:
+    return scenes.parsed(TRAY, tail=scenes.tail(0.3, 16))
 
 
 @pytest.mark.slow
-def test_a_disk_rolls_on_a_side_that_turns_as_derived_by_hand(tmp_path: Path) -> None:
-    case = tray(tmp_path)
+def test_a_disk_rolls_on_a_side_that_turns_as_derived_by_hand() -> None:
+    case = tray()
     solution = solve(case)
     motion, known = solution.trajectory, by_hand(case.times)
     disk = motion.states["disk"]
@@ -93,10 +98,8 @@ def without_turn(row: Any) -> Any:
 
 
 @pytest.mark.mutant("γ of a side that turns left out")
-def test_a_lost_curvature_of_a_side_that_turns_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case = tray(tmp_path)
+def test_a_lost_curvature_of_a_side_that_turns_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = tray()
     known = by_hand(case.times)
     monkeypatch.setattr(Line, "row", without_gamma(Line.row))
     found = follow(scenes.mechanism(case), case.times[:4]).y
@@ -106,59 +109,33 @@ def test_a_lost_curvature_of_a_side_that_turns_is_seen(
 
 
 @pytest.mark.mutant("a side whose turn does not move what lies on it")
-def test_a_lost_lever_of_a_side_that_turns_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_lost_lever_of_a_side_that_turns_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Then what rolls with the side starts into it."""
     monkeypatch.setattr(Line, "row", without_turn(Line.row))
     with pytest.raises(BadStart, match="touch starts into the top of tray"):
-        follow(scenes.mechanism(tray(tmp_path)), np.array([0.0, 0.1]))
+        follow(scenes.mechanism(tray()), np.array([0.0, 0.1]))
 
 
 def case_column(case: Case, name: str) -> int:
     return scenes.mechanism(case).base.where.names.index(name)
 
 
-ROLLS = """\
-scene:
-  gravity: none
-  bodies: {one: {disk: {mass: 1.3, radius: 0.2}}, two: {disk: {mass: 0.7, radius: 0.3}}}
-  contacts: {touch: {between: [two, one], friction: 0.9}}
-  forces: {coil: {spring: [one.center, two.center], stiffness: 300, rest_length: 0.2}}
-initial:
-  one: {x: 0, y: 0, angle: 0, vx: 0.3, vy: 0, omega: W}
-  two: {x: 0.3, y: 0.4, angle: 0, vx: 0.3, vy: 0, omega: U}
-allow: {one.x: 1.0e-2, two.x: 1.0e-2, touch.normal: 1.0}
-"""
-KEPT = ("momentum.x", "momentum.y", "momentum.angular", "energy.total")
+KEPT = ("momentum.x", "momentum.y", "momentum.angular")
 
 
-def rolls(tmp_path: Path, one: float, two: float) -> Case:
+def rolls(one: float, two: float) -> Case:
     """Two free disks on each other, pulled together."""
-    text = ROLLS.replace("W", str(one)).replace("U", str(two))
-    return scenes.typed(tmp_path, text)
+    spring = "{spring: [one.center, two.center], stiffness: 300, rest_length: 0.2}"
+    changes = f"scene: {{forces: {{coil: {spring}}}}}"
+    return scenes.scene("two_disks", changes, mu=0.9, w_one=one, w_two=two)
 
 
 @pytest.mark.slow
-def test_two_disks_roll_around_each_other_and_lose_nothing(tmp_path: Path) -> None:
-    """R ω₁ + R' ω₂ = 0 at the start: no slip. All that free bodies keep, they keep."""
-    case = rolls(tmp_path, 6.0, -4.0)
-    solution = solve(case)
-    motion = solution.trajectory
-    assert all(check.holds for check in solution.checks)
-    for quantity in KEPT:
-        samples = observe(case.scene, motion, quantity)
-        np.testing.assert_allclose(samples, samples[0], atol=1e-11)
-    np.testing.assert_allclose(observe(case.scene, motion, "touch.slip"), 0.0, atol=1e-12)
-    assert np.ptp(motion.states["two"][:, X]) > 0.1
-
-
-@pytest.mark.slow
-def test_two_disks_that_slip_lose_energy_and_no_momentum(tmp_path: Path) -> None:
+def test_two_disks_that_slip_lose_energy_and_no_momentum() -> None:
     """Friction acts on both: the angular momentum about any point stays."""
-    case = rolls(tmp_path, 9.0, 2.0)
+    case = rolls(9.0, 2.0)
     motion = solve(case).trajectory
-    for quantity in KEPT[:3]:
+    for quantity in KEPT:
         samples = observe(case.scene, motion, quantity)
         np.testing.assert_allclose(samples, samples[0], atol=1e-11)
     slip, energy = (observe(case.scene, motion, q) for q in ("touch.slip", "energy.total"))
@@ -170,11 +147,9 @@ def test_two_disks_that_slip_lose_energy_and_no_momentum(tmp_path: Path) -> None
 
 @pytest.mark.mutant("γ of two rims left out ({term.name})")
 @pytest.mark.parametrize("term", [Apart, Around])
-def test_a_lost_curvature_of_rims_is_seen(
-    term: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_lost_curvature_of_rims_is_seen(term: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """γ is f_a q̈ᵃ of what goes on as it does: by a difference of f_a q̇ᵃ along the straight way."""
-    mechanism = scenes.mechanism(rolls(tmp_path, 6.0, -4.0))
+    mechanism = scenes.mechanism(rolls(6.0, -4.0))
     name, q, v = mechanism.start()
     mode = mechanism.modes[name]
     v = v + np.array([0.0, 0.4, 0.0, 0.0, -0.7, 0.0])  # around, and apart
@@ -182,7 +157,7 @@ def test_a_lost_curvature_of_rims_is_seen(
     known = -(rates[1] - rates[0]) / 2e-5
     np.testing.assert_allclose(mode.rows(0.0, q, v)[2], known, atol=1e-8)
     monkeypatch.setattr(term, "row", without_gamma(term.row))
-    planted = scenes.mechanism(rolls(tmp_path, 6.0, -4.0))
+    planted = scenes.mechanism(rolls(6.0, -4.0))
     mode = planted.modes[planted.start()[0]]
     assert np.abs(mode.rows(0.0, q, v)[2] - known).max() > 0.1
 
@@ -203,8 +178,8 @@ allow: {lower.x: 1.0e-2}
 """
 
 
-def test_what_stands_on_a_block_starts_with_it(tmp_path: Path) -> None:
-    case = scenes.typed(tmp_path, CARRIED)
+def test_what_stands_on_a_block_starts_with_it() -> None:
+    case = scenes.parsed(CARRIED)
     _, q, v = scenes.mechanism(case).start()
     poses = scenes.mechanism(case).base.where.poses(q, v)
     lower, upper = np.array(poses["lower"]), np.array(poses["upper"])
@@ -213,3 +188,85 @@ def test_what_stands_on_a_block_starts_with_it(tmp_path: Path) -> None:
     assert upper[OMEGA] == pytest.approx(0.7)
     moves = upper[[VX, VY]] - lower[[VX, VY]]
     np.testing.assert_allclose(moves, 0.7 * np.array([-y, x]), atol=1e-12)
+
+
+MASSES, RADII = np.array([1.3, 0.7]), np.array([0.2, 0.3])
+OBLIQUE = f"""
+initial:
+  one: {{vx: 1.0, vy: 0.4}}
+  two: {{x: 0.8, y: 0.1, vx: -0.5, vy: 0.2}}
+events: {{strikes: {{touch.gap: falls to zero}}}}
+{scenes.tail(0.6, 13)}"""
+
+
+def oblique(mu: float, spin: float) -> Case:
+    return scenes.scene("two_disks", OBLIQUE, mu=mu, e=0.6, w_one=spin, w_two=-2.0)
+
+
+def blow_by_hand(mu: float, spin: float) -> tuple[float, np.ndarray, np.ndarray, bool]:
+    """When they meet, the velocities after it and the spins, and whether the slip ends.
+
+    Λ_n = (1 + e) v_n/(1/m + 1/m'); Λ_t stops the slip, s/(1/m + 1/m' + R²/J + R'²/J'), if that is
+    within μ Λ_n.
+    """
+    place, rate = np.array([0.8, 0.1]), np.array([-1.5, -0.2])
+    a, b, c = rate @ rate, 2 * place @ rate, place @ place - 0.25
+    t = float(-b - np.sqrt(b**2 - 4 * a * c)) / float(2 * a)
+    n = (place + t * rate) / 0.5
+    along = np.array([n[1], -n[0]])
+    spins, J = np.array([spin, -2.0]), MASSES * RADII**2 / 2
+    slip = rate @ along + RADII @ spins
+    blow = 1.6 * -(rate @ n) / np.sum(1 / MASSES)
+    stops = -slip / np.sum(1 / MASSES + RADII**2 / J)
+    held = bool(abs(stops) <= mu * blow)
+    rubs = stops if held else -np.sign(slip) * mu * blow
+    impulse = blow * n + rubs * along
+    velocities = np.array([[1.0, 0.4], [-0.5, 0.2]]) + np.outer([-1, 1], impulse) / MASSES[:, None]
+    return t, velocities, spins + RADII * rubs / J, held
+
+
+@pytest.mark.parametrize(
+    ("mu", "spin", "held"),
+    [
+        (0.0, 6.0, False),
+        (0.1, 6.0, True),
+        (0.1, -9.0, False),
+        (0.1, 40.0, False),
+        (0.9, -9.0, True),
+    ],
+)
+def test_the_blow_is_coulombs(mu: float, spin: float, held: bool) -> None:
+    case = oblique(mu, spin)
+    solution = solve(case)
+    motion = solution.trajectory
+    assert all(check.holds for check in solution.checks)
+    t, velocities, spins, known = blow_by_hand(mu, spin)
+    assert known is held
+    for body, velocity, omega in zip(("one", "two"), velocities, spins, strict=True):
+        np.testing.assert_allclose(motion.states[body][-1, 3:5], velocity, atol=1e-12)
+        assert motion.states[body][-1, 5] == pytest.approx(omega, abs=1e-11)
+        before = motion.states[body][0, :2] + t * motion.states[body][0, 3:5]
+        place = before + (case.duration - t) * velocity
+        np.testing.assert_allclose(motion.states[body][-1, :2], place, atol=1e-12)
+    for quantity in ("momentum.x", "momentum.y", "momentum.angular"):
+        samples = observe(case.scene, motion, quantity)
+        np.testing.assert_allclose(samples, samples[0], atol=1e-12)
+
+
+def one_lever(pair: Pair, where: Coordinates) -> Constraint:
+    """The mutant: the other rim's turn is counted the other way."""
+    slip = along(pair, where)
+    around, own, other = slip.rows[0]
+    assert isinstance(other, Turning)
+    return replace(slip, rows=((around, own, Turning(other.p, -other.axis)),))
+
+
+@pytest.mark.mutant("turn of the other rim counted the other way in a blow")
+def test_a_wrong_lever_of_the_blow_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    case, (_, velocities, spins, _) = oblique(0.9, 6.0), blow_by_hand(0.9, 6.0)
+    known = np.column_stack([velocities, spins]).ravel()
+    right = follow(scenes.mechanism(case), case.times).y[-1, 6:]
+    monkeypatch.setattr(generated, "along", one_lever)
+    wrong = follow(scenes.mechanism(case), case.times).y[-1, 6:]
+    assert np.abs(right - known).max() < 1e-11
+    assert np.abs(wrong - known).max() > 0.1

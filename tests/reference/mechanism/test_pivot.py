@@ -1,26 +1,26 @@
-"""What pivots on the floor, from the scene alone: strikes, rest, what friction cannot hold."""
+"""What pivots on the floor, from the scene alone: spokes, feet, rods."""
 
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from given import scenes
-from given.scenes import tail, typed
+from given.refused import refused
+from given.scenes import SHIPPED, parsed, tail
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError
-from textmech.cases.scene import Scene
 from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.modes import element
 from textmech.reference.mechanism.modes import impact_transition as landing
 from textmech.reference.mechanism.modes.blow import Blow
+from textmech.reference.mechanism.modes.mechanism import BadStart
+from textmech.reference.mechanism.modes.mode_selection import Undetermined
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Array
-from textmech.reference.systems import written
 from textmech.reference.systems.walkers.rimless_wheel import SpokeSteps
 
 L, M, J, GAMMA = 0.3, 2.0, 0.09, 0.1
@@ -50,25 +50,22 @@ initial: {thigh: {angle: -20 deg, omega: -1.0}, shank: {angle: -120 deg, omega: 
 events: {strikes: {foot.gap: falls to zero}}
 allow: {thigh.angle: 1.0e-3, strikes.time: 1.0e-3}
 """
-PARAMETERS = {"n": 8.0, "l": L, "m": M, "J": J, "gamma": GAMMA, "mu": 2.0}
 
 
-def strikes(tmp_path: Path, w0: float, until: float = 1.0) -> list[float]:
-    case = typed(tmp_path, WHEEL.format(mu=2.0, w0=w0, more=""))
+def strikes(w0: float, until: float = 1.0) -> list[float]:
+    case = parsed(WHEEL.format(mu=2.0, w0=w0, more=""))
     found = follow(scenes.mechanism(case), np.linspace(0.0, until, 3))
     return [change.time for change in found.changes]
 
 
 @pytest.mark.slow
-def test_strikes_are_those_of_the_energy(tmp_path: Path) -> None:
+def test_strikes_are_those_of_the_energy() -> None:
     known = SpokeSteps(8, L, J / (M * L**2), GAMMA).strikes(3.3, 1.0)
-    assert strikes(tmp_path, 3.3) == pytest.approx(known, abs=1e-12)
+    assert strikes(3.3) == pytest.approx(known, abs=1e-12)
 
 
 @pytest.mark.mutant("an impact of spokes in which the old tip stays")
-def test_an_impact_in_which_the_old_tip_stays_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_impact_in_which_the_old_tip_stays_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a tip that lets go, the wheel stands on two after the first strike."""
     sound = landing.impact
     monkeypatch.setattr(
@@ -79,14 +76,12 @@ def test_an_impact_in_which_the_old_tip_stays_is_seen(
             ("sticks",) * len(met),
         ),
     )
-    assert len(strikes(tmp_path, 3.3)) == 1
+    assert len(strikes(3.3)) == 1
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("half of J in the impact of spokes")
-def test_another_inertia_in_the_impact_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_inertia_in_the_impact_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Half of J keeps another part of the speed."""
     known = SpokeSteps(8, L, J / (M * L**2), GAMMA).strikes(3.3, 1.0)
     assert known is not None
@@ -94,27 +89,13 @@ def test_another_inertia_in_the_impact_is_seen(
     monkeypatch.setattr(
         landing, "impact", lambda mass, joints, met, v: sound(halved * mass, joints, met, v)
     )
-    assert abs(np.array(strikes(tmp_path, 3.3)) - known).max() > 1e-4
+    assert abs(np.array(strikes(3.3)) - known).max() > 1e-4
 
 
 @pytest.mark.slow
-def test_it_rocks_to_rest_as_the_hand_written_one(tmp_path: Path) -> None:
-    case = typed(tmp_path, WHEEL.format(mu=2.0, w0=0.5, more=""))
-    mechanism, wheel = scenes.mechanism(case), written("rimless_wheel", {**PARAMETERS, "w0": 0.5})
-    found, other = follow(mechanism, case.times), follow(wheel, case.times)
-    times = np.array([[change.time for change in each.changes] for each in (found, other)])
-    assert np.abs(times[0] - times[1]).max() < 1e-8  # the last are told apart by rounding's 1e-10
-    assert found.phases[-1].startswith("feet.tip0 sticks, feet.tip1 sticks, feet.tip2 open")
-    forces = mechanism.modes[found.phases[-1]].reactions(1.0, *np.split(found.y[-1], 2))
-    weight = M * 9.80665 * np.array([-math.sin(GAMMA), math.cos(GAMMA)])
-    assert [forces["feet.tangent"], forces["feet.normal"]] == pytest.approx(weight, rel=1e-12)
-    assert forces["feet.tip1.normal"] > forces["feet.tip0.normal"] > 0.0  # it leans down the slope
-
-
-@pytest.mark.slow
-def test_a_rod_that_pivots_on_its_end(tmp_path: Path) -> None:
+def test_a_rod_that_pivots_on_its_end() -> None:
     """½ (m l²/3) ω² + m g (l/2) sin φ stays what it was; F_N by (2.23)."""
-    case = typed(tmp_path, ROD.format(mu=9.0, w0=-0.4), tail=tail(0.3, 16))
+    case = parsed(ROD.format(mu=9.0, w0=-0.4), tail=tail(0.3, 16))
     motion = solve(case).trajectory
     s = motion.states["rod"]
     angle, omega, half, g = s[:, 2], s[:, 5], 0.4, 9.80665
@@ -141,22 +122,19 @@ def test_a_rod_that_pivots_on_its_end(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_cannot_pivot_is_said(tmp_path: Path, scene: str, words: str) -> None:
-    with pytest.raises(CaseError) as caught:
-        solve(typed(tmp_path, scene))
-    assert words in str(caught.value)
+def test_what_cannot_pivot_is_said(scene: str, words: str) -> None:
+    assert words in refused(parsed(scene)).what
 
 
 @pytest.mark.slow
-def test_friction_that_an_impact_needs_is_enough(tmp_path: Path) -> None:
+def test_friction_that_an_impact_needs_is_enough() -> None:
     """The number in the message, rounded up, and not 1 % less."""
-    with pytest.raises(CaseError) as caught:
-        solve(typed(tmp_path, WHEEL.format(mu=0.2, w0=3.3, more="")))
-    needed = float(str(caught.value).partition("it needs friction ")[2].split()[0])
-    mechanism = scenes.mechanism(typed(tmp_path, WHEEL.format(mu=1.01 * needed, w0=3.3, more="")))
+    mistake = refused(parsed(WHEEL.format(mu=0.2, w0=3.3, more="")))
+    needed = float(mistake.what.partition("it needs friction ")[2].split()[0])
+    mechanism = scenes.mechanism(parsed(WHEEL.format(mu=1.01 * needed, w0=3.3, more="")))
     assert len(follow(mechanism, np.linspace(0.0, 0.3, 3)).changes) == 1
     with pytest.raises(CaseError, match="the impact"):
-        solve(typed(tmp_path, WHEEL.format(mu=0.99 * needed, w0=3.3, more="")))
+        solve(parsed(WHEEL.format(mu=0.99 * needed, w0=3.3, more="")))
 
 
 def needed_where_it_hangs(q: Array, v: Array) -> float:
@@ -186,22 +164,19 @@ def needed_where_it_hangs(q: Array, v: Array) -> float:
     return float(abs(T) / N)
 
 
-def hanging(tmp_path: Path, mu: float) -> Case:
-    return typed(tmp_path, HANGING.replace("MU", str(mu)), tail=tail(0.4, 5))
+def hanging(mu: float) -> Case:
+    return parsed(HANGING.replace("MU", str(mu)), tail=tail(0.4, 5))
 
 
-def test_a_second_joint_to_the_ground_takes_its_share_of_a_blow(tmp_path: Path) -> None:
-    (strikes,) = follow(scenes.mechanism(hanging(tmp_path, 9.0)), np.linspace(0.0, 0.4, 3)).events
+def test_a_second_joint_to_the_ground_takes_its_share_of_a_blow() -> None:
+    (strikes,) = follow(scenes.mechanism(hanging(9.0)), np.linspace(0.0, 0.4, 3)).events
     needed = needed_where_it_hangs(*np.split(strikes.before, 2))
-    with pytest.raises(CaseError, match="to pivot it needs friction") as caught:
-        solve(hanging(tmp_path, 0.01))
-    assert str(caught.value).partition("needs friction ")[2].split()[0] == f"{needed:.3g}"
+    mistake = refused(hanging(0.01))
+    assert mistake.what.partition("needs friction ")[2].split()[0] == f"{needed:.3g}"
 
 
 @pytest.mark.mutant("the friction that a blow needs, of all that changes the momentum")
-def test_a_share_of_the_joints_counted_as_friction_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_share_of_the_joints_counted_as_friction_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     sound = landing.impact
 
     def of_all(M: Array, joints: Any, met: Any, v: Array) -> Any:
@@ -211,16 +186,14 @@ def test_a_share_of_the_joints_counted_as_friction_is_seen(
 
     monkeypatch.setattr(landing, "impact", of_all)
     with pytest.raises(AssertionError):
-        test_a_second_joint_to_the_ground_takes_its_share_of_a_blow(tmp_path)
+        test_a_second_joint_to_the_ground_takes_its_share_of_a_blow()
 
 
 @pytest.mark.mutant("friction cone of a pivot left out")
-def test_margins_of_a_pivot_are_asked_of_its_samples(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_margins_of_a_pivot_are_asked_of_its_samples(monkeypatch: pytest.MonkeyPatch) -> None:
     """A friction cone that is lost lets a rod stand that would slip."""
     scene = ROD.format(mu=0.2, w0=0.1)
-    case = typed(tmp_path, scene)
+    case = parsed(scene)
     mechanism = scenes.mechanism(case)
     mode, q, v = mechanism.start()
     assert mechanism.possible(mode, 0.0, q, v) == "foot would have to slip"
@@ -228,6 +201,61 @@ def test_margins_of_a_pivot_are_asked_of_its_samples(
     assert mechanism.possible(mode, 0.0, q, v) is None
 
 
-def test_scenes_without_spokes_touch_as_they_say(tmp_path: Path) -> None:
-    scene: Scene = typed(tmp_path, ROD.format(mu=3.0, w0=0.1)).scene
-    assert list(scene.touching.items()) == list(scene.contacts.items())
+CASE = SHIPPED["compass_walker"]
+
+
+@pytest.mark.mutant("a swinging foot that strikes midway")
+def test_a_foot_that_does_not_pass_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Midway it would strike the floor, with the standing one beside it."""
+    monkeypatch.setattr(element.Element, "behind", lambda self, t, q, size: 0.0)
+    try:
+        changes = follow(scenes.mechanism(CASE), CASE.times).changes
+    except (Undetermined, BadStart):
+        return
+    assert [round(change.time, 2) for change in changes] != [0.89, 1.79]
+
+
+@pytest.mark.slow
+def test_both_feet_in_the_air_are_no_walk() -> None:
+    """The standing leg so fast that it leaves the floor at once."""
+    left = CASE.initial["left"]
+    fast = replace(left, given={**left.given, "omega": -6.0})
+    flying = replace(CASE, system=None, initial={**CASE.initial, "left": fast}, duration=0.02)
+    with pytest.raises(CaseError, match="the floor would have to pull at t = 0 s: left leaves it"):
+        solve(flying)
+
+
+@pytest.mark.slow
+def test_a_walker_slips_where_friction_is_little() -> None:
+    contacts = CASE.scene.contacts.items()
+    feet = {name: replace(foot, static=0.01, kinetic=0.01) for name, foot in contacts}
+    with pytest.raises(CaseError, match="would slip"):
+        solve(replace(CASE, system=None, scene=replace(CASE.scene, contacts=feet)))
+
+
+TOP = """\
+scene:
+  space: 3
+  bodies:
+    top:
+      rigid: {mass: 0.5, inertia: [3.5e-4, 3.5e-4, 6e-4, 0, 0, 0]}
+      points: {tip: [0, 0, -0.05]}
+  contacts:
+    touch: {between: [top.tip, ground.floor], friction: %s, ideal: pivot}
+initial: {top: {tip: [0, 0, 0], attitude: {axis: [1, 0, 0], angle: 25 deg}, omega: %s}}
+allow: {top.attitude: 1.0e-2, touch.normal: 1.0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("friction", "omega", "said"),
+    [
+        (0.05, "[0, 0.9, 150]", "pivoting is not possible with friction 0.05: at t = "),
+        (9.0, "[20, 0, 150]", "the floor would have to pull at t = 0 s: top leaves it"),
+    ],
+)
+def test_what_the_floor_cannot_hold_in_space(friction: float, omega: str, said: str) -> None:
+    case = parsed(TOP % (friction, omega), tail=tail(0.1, 3))  # type: ignore[arg-type]
+    mistake = refused(case)
+    assert mistake.where == "scene.contacts.touch.ideal"
+    assert mistake.what.startswith(said)

@@ -1,122 +1,242 @@
-"""The three terms of rows against planar formulas typed here, with S = [[0, −1], [1, 0]]."""
+"""The rows of constraints at any states, in the plane and in space.
+
+A row is the rate of its place, and γ what is left of the row's derivative: by the complex step,
+which shares no algebra with the row. Plane and space share the formulas of the terms, so that
+neither tests the other.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from given import scenes
 
-from textmech.cases.scene import GROUND, Anchor, GroundPoint, Scene, shape
+from textmech.cases.scene import Anchor, Signal
+from textmech.reference.formalisms.derivative import along
+from textmech.reference.mechanism.constraints import constraint_terms as terms
 from textmech.reference.mechanism.constraints.constraint import Constraint
-from textmech.reference.mechanism.constraints.constraint_terms import Along, Line, Term, Turning
-from textmech.reference.mechanism.constraints.equation_table import G
+from textmech.reference.mechanism.kinematics import frame
 from textmech.reference.mechanism.kinematics.coordinates import Coordinates
+from textmech.reference.mechanism.kinematics.kinematics import Direction, Kinematics, Row
+from textmech.reference.mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from textmech.reference.system import Array
 
-P, Q = np.array([0.3, 0.2]), np.array([-0.2, 0.4])  # on the bar and on the block, in body axes
-HOOK, HOOK_DOT = np.array([0.2, 0.5]), np.array([0.8, -1.1])
-S = np.array([[0.0, -1.0], [1.0, 0.0]])
-EXACT = 1e-13  # a few roundings of terms of size 1 to 100
-WHERE = Coordinates(
-    Scene(
-        gravity=(0.0, 0.0),
-        points={"hook": GroundPoint((0.2, 0.5), (0.8, -1.1))},
-        bodies={
-            "bar": shape.bar(name="bar", mass=1.2, length=0.9, points={"P": (0.3, 0.2)}),
-            "block": shape.block(
-                name="block", mass=0.7, width=0.5, height=0.3, points={"Q": (-0.2, 0.4)}
-            ),
-            "dot": shape.particle(name="dot", mass=0.4),
-        },
-        joints={},
-        contacts={},
-        forces={},
-    )
-)
-BAR, BLOCK, DOT = Anchor("bar", "P"), Anchor("block", "Q"), Anchor("dot", "center")
-END, GIVEN = Anchor("bar", "end"), Anchor(GROUND, "hook")
-U = (0.6, -0.8)
+EXACT = 1e-12  # of terms of the size 1 to 100, a dozen roundings
+SEEN = 1e-3
+PLANE = """\
+scene:
+  points:
+    O: [0.3, -0.2]
+    hook: {at: [0.5, 0.4], velocity: [0.1, -0.2]}
+    crank: {at: [0.1, 0.2], moves: {sine: {amplitude: [0.3, -0.2], angular_frequency: 4.0}}}
+  bodies:
+    a: {rigid: {mass: 1.3, inertia: 0.2}, points: {P: [0.1, 0.2]}}
+    b: {rigid: {mass: 0.7, inertia: 0.1}, points: {P: [-0.3, 0.1]}}
+    bob: {particle: {mass: 0.4}}
+initial: {}
+allow: {a.x: 1.0}
+"""
+SPACE = """\
+scene:
+  space: 3
+  points: {O: [0.3, -0.2, 0.1], hook: {at: [0.5, 0.4, 0.3], velocity: [0.1, -0.2, 0.3]}}
+  bodies:
+    a: {rigid: {mass: 1.3, inertia: [0.2, 0.3, 0.25, 0, 0, 0]}, points: {P: [0.1, 0.2, 0.3]}}
+    b: {rigid: {mass: 0.7, inertia: [0.1, 0.2, 0.15, 0, 0, 0]}, points: {P: [-0.3, 0.1, 0.2]}}
+    bob: {particle: {mass: 0.4}}
+initial: {}
+allow: {a.x: 1.0}
+"""
+LAW = Signal("sine", (0.7,), 3.0, 0.4)
+U, W, N = (0.6, -0.8), (2 / 7, 3 / 7, 6 / 7), (0.36, 0.48, 0.8)  # unit vectors
+IN_PLANE: dict[str, terms.Term] = {
+    "along": terms.Along(1, U),
+    "turning": terms.Turning(1, -0.7),
+    "line": terms.Line(0, 1, U),
+    "apart": terms.Apart(0, 1),
+    "distance": terms.Distance(0, 1),
+    "around": terms.Around(0, 1),
+    "carried": terms.Carried(1, U),
+    "given": terms.Given(LAW),
+}
+IN_SPACE: dict[str, terms.Term] = {
+    "along": terms.Along(1, W),
+    "line": terms.Line(0, 1, W),
+    "apart": terms.Apart(0, 1),
+    "distance": terms.Distance(0, 1),
+    "carried": terms.Carried(1, W),
+    "given": terms.Given(LAW),
+    "dot": terms.Dot(0, 1, W, N),
+    "turn": terms.Turn(0, 1, W, N, (1.3, -0.4)),
+    "lowest of a rim": terms.Lowest(1, 0.3, N, W),
+    "lowest of a sphere": terms.Lowest(1, 0.3, None, W),
+    "heading": terms.Heading(1, N),
+}
+UP = terms.Lowest(1, 0.3, N, (0.0, 0.0, 1.0))  # along the floor it is the rate of no place
+PLACED = ("along", "turning", "line", "apart", "distance", "dot")
+ENDS = {
+    "bodies": ("a.P", "b.P"), "from the ground": ("ground.O", "b.P"),
+    "from a driven point": ("ground.hook", "b.P"), "to one": ("a.P", "ground.hook"),
+    "from a particle": ("bob.center", "b.P"), "of centres": ("a.center", "b.center"),
+}  # fmt: skip
+MOVING = {"from a moving point": ("ground.crank", "b.P")}
+OF_BODIES = ("carried", "lowest", "heading")  # whose second part carries something
 
 
-def E(phi: float) -> Array:
-    return np.array([[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]])
+def layout(text: str) -> Any:
+    scene = scenes.parsed(text).scene
+    return Coordinates(scene) if text == PLANE else SpatialCoordinates(scene)  # type: ignore[arg-type]
 
 
-def held(term: Term, ends: tuple[Anchor, ...]) -> Constraint:
-    return Constraint("j", ends, ((term,),), (("fx", "fy"),), None, WHERE)
+def held(term: terms.Term, ends: tuple[str, str], where: Any) -> Constraint:
+    anchors = tuple(Anchor(*end.split(".")) for end in ends)
+    return Constraint("j", anchors, ((term,),), ((),), None, where)
 
 
-def row(term: Term, ends: tuple[Anchor, ...], t: float, q: Array, v: Array) -> Array:
-    """f_a, g and γ, (n + 2,)."""
-    (f,), (g,), (gamma,) = held(term, ends).alone.rows(t, q, v)
-    return np.array([*f, g, gamma])
+def states(where: Any) -> list[tuple[float, Array, Array]]:
+    random = np.random.default_rng(3)
+    m, n = len(where.names), len(where.masses)
+    return [
+        (random.uniform(0.1, 2.0), random.uniform(-2.0, 2.0, m), random.uniform(-3.0, 3.0, n))
+        for _ in range(5)
+    ]
 
 
-@pytest.fixture(params=range(10))
-def state(request: pytest.FixtureRequest) -> tuple[float, Array, Array]:
-    """t, and q and v of bar (x, y, φ), block (x, y, φ) and dot (x, y)."""
-    random = np.random.default_rng(request.param)
-    return random.uniform(0.0, 3.0), random.uniform(-3.0, 3.0, 8), random.uniform(-5.0, 5.0, 8)
+def left_of_gamma(part: Constraint, where: Any) -> float:
+    """f_a v̇ = γ is d/dt of f_a v = g, along q̇ of v, any state."""
+
+    def excess(t: Any, q: Any, v: Array) -> Any:
+        f_a, g, _ = part.alone.rows(t, q, v)
+        return f_a @ v - g
+
+    worst = 0.0
+    for t, q, v in states(where):
+        gamma = part.alone.rows(t, q, v)[2]
+        slopes = along(lambda t, q, v=v: excess(t, q, v), (t, q), (1.0, where.rates(q, v)))
+        worst = max(worst, float(np.max(np.abs(gamma + slopes)) / max(np.max(np.abs(gamma)), 1.0)))
+    return worst
 
 
-def test_along(state: tuple[float, Array, Array]) -> None:
-    """u·(ẋ, ẏ) + u·S d φ̇ = 0 and γ = φ̇² u·d; a particle has no arm, the ground a velocity."""
-    t, q, v = state
-    d, u = E(q[2]) @ P, np.array(U)
-    expected = [*u, u @ S @ d, 0, 0, 0, 0, 0, 0, v[2] ** 2 * u @ d]
-    np.testing.assert_allclose(row(Along(0, U), (BAR,), t, q, v), expected, atol=EXACT)
-    d = E(q[2]) @ [0.45, 0.0]
-    expected = [*u, u @ S @ d, 0, 0, 0, 0, 0, 0, v[2] ** 2 * u @ d]
-    np.testing.assert_allclose(row(Along(0, U), (END,), t, q, v), expected, atol=EXACT)
-    np.testing.assert_array_equal(row(Along(0, U), (DOT,), t, q, v), [0, 0, 0, 0, 0, 0, *U, 0, 0])
-    fixed = np.zeros(10)
-    fixed[G] = -u @ HOOK_DOT
-    np.testing.assert_allclose(row(Along(0, U), (GIVEN,), t, q, v), fixed, atol=EXACT)
+def left_of_rates(part: Constraint, where: Any) -> float:
+    """f_a v − g is the rate of the place."""
+    worst = 0.0
+    for t, q, v in states(where):
+        f_a, g, _ = part.alone.rows(t, q, v)
+        slopes = along(
+            lambda t, q: np.array([x + 0j for x in part.places(t, q.tolist())]),
+            (t, q),
+            (1.0, where.rates(q, v)),
+        )
+        worst = max(worst, float(np.max(np.abs(f_a @ v - g - slopes))))
+    return worst
 
 
-def test_turning(state: tuple[float, Array, Array]) -> None:
-    """The angle's column; particles and the ground do not turn."""
-    t, q, v = state
-    expected = [0, 0, 0, 0, 0, -0.7, 0, 0, 0, 0]
-    np.testing.assert_array_equal(row(Turning(1, -0.7), (BAR, BLOCK), t, q, v), expected)
-    for end in (DOT, GIVEN):
-        assert not np.any(row(Turning(0), (end,), t, q, v))
+ALL = [(PLANE, name, ends) for name in IN_PLANE for ends in ENDS | MOVING]
+ALL += [(SPACE, name, ends) for name in IN_SPACE for ends in ENDS]
+ALL = [
+    (text, name, ends) for text, name, ends in ALL
+    if not (name.startswith(OF_BODIES) and ends == "to one")
+]  # fmt: skip
 
 
-def test_line_from_a_body(state: tuple[float, Array, Array]) -> None:
-    """d/dt u·(r_Q − r_c), r_c the bar's centre: in its axes the point of the bar does not move."""
-    t, q, v = state
-    u, d = E(q[2]) @ U, E(q[5]) @ Q
-    lever, rate = q[3:5] + d - q[:2], v[3:5] + v[5] * S @ d - v[:2]
-    f = [*-u, (S @ u) @ lever, *u, u @ S @ d, 0, 0]
-    gamma = v[2] ** 2 * u @ lever - 2 * v[2] * (S @ u) @ rate + v[5] ** 2 * u @ d
-    found = row(Line(0, 1, U), (BAR, BLOCK), t, q, v)
-    np.testing.assert_allclose(found, [*f, 0, gamma], atol=10 * EXACT)
+@pytest.mark.parametrize(("text", "name", "ends"), ALL)
+def test_a_row_is_the_rate_of_its_place_and_gamma_of_the_row(
+    text: str, name: str, ends: str
+) -> None:
+    where = layout(text)
+    term = (IN_PLANE if text == PLANE else IN_SPACE)[name]
+    part = held(term, (ENDS | MOVING)[ends], where)
+    assert left_of_gamma(part, where) < EXACT
+    if name in PLACED:
+        assert left_of_rates(part, where) < 100 * EXACT  # of rates up to 30 m/s
+    else:
+        upright = "lowest" in name  # its place is that of the lowest point, whose rate is another
+        assert upright or np.isnan(part.places(0.3, states(where)[0][1].tolist())).all()
 
 
-def test_line_from_and_to_the_ground(state: tuple[float, Array, Array]) -> None:
-    """From the ground u does not turn; to it, only u does, and the point of the ground moves."""
-    t, q, v = state
-    u, d = np.array(U), E(q[5]) @ Q
-    expected = [0, 0, 0, *u, u @ S @ d, 0, 0, u @ HOOK_DOT, v[5] ** 2 * u @ d]
-    found = row(Line(0, 1, U), (GIVEN, BLOCK), t, q, v)
-    np.testing.assert_allclose(found, expected, atol=EXACT)
-    u = E(q[2]) @ U
-    lever, rate = HOOK + t * HOOK_DOT - q[:2], HOOK_DOT - v[:2]
-    f = [*-u, (S @ u) @ lever, 0, 0, 0, 0, 0]
-    gamma = v[2] ** 2 * u @ lever - 2 * v[2] * (S @ u) @ rate
-    found = row(Line(0, 1, U), (BAR, GIVEN), t, q, v)
-    np.testing.assert_allclose(found, [*f, -u @ HOOK_DOT, gamma], atol=10 * EXACT)
+def test_the_height_of_a_rim_is_what_its_row_is_the_rate_of() -> None:
+    where = layout(SPACE)
+    assert left_of_rates(held(UP, ENDS["bodies"], where), where) < 100 * EXACT
 
 
-def test_places(state: tuple[float, Array, Array]) -> None:
-    """u·r of a point, φ times the axis, u·Δ: what the rows are the rates of."""
-    t, q, _ = state
-    r_P, r_Q = q[:2] + E(q[2]) @ P, q[3:5] + E(q[5]) @ Q
-    u = E(q[2]) @ U
+@pytest.mark.mutant("slip of a disk's centre for that of its rim")
+def test_the_slip_of_a_centre_is_not_that_of_the_rim(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The height of the lowest point does not change as the rows of the centre would have it."""
+    planted(monkeypatch, terms.Lowest, lost_lever)
+    where = layout(SPACE)
+    assert left_of_rates(held(UP, ENDS["bodies"], where), where) > SEEN
 
-    def place(term: Term) -> float:
-        return held(term, (BAR, BLOCK)).places(t, q.tolist())[0]
 
-    assert place(Along(1, U)) == pytest.approx(np.dot(U, r_Q), abs=EXACT)
-    assert place(Turning(1, 0.25)) == 0.25 * q[5]
-    assert place(Line(0, 1, U)) == pytest.approx(u @ (r_Q - r_P), abs=EXACT)
-    force = held(Line(0, 1, U), (BAR, BLOCK)).reactions(t, q.tolist(), [2.0])
-    assert (force["j.fx"], force["j.fy"]) == pytest.approx(tuple(2.0 * u), abs=EXACT)
+def test_no_term_is_left_out() -> None:
+    known = {type(term) for term in (*IN_PLANE.values(), *IN_SPACE.values())}
+    written = {kind for kind in vars(terms).values() if isinstance(kind, type)}
+    assert {kind for kind in written if hasattr(kind, "row")} - {terms.Term} == known
+
+
+def lost_gamma(row: Row) -> Row:
+    return Row(row.loads, row.g, 0.0)
+
+
+def lost_lever(row: Row) -> Row:
+    """A force acts at the centre of mass."""
+    return Row([(part, F, M if F is None else None) for part, F, M in row.loads], row.g, row.gamma)
+
+
+MOVED = [
+    (text, name)
+    for text, known in ((PLANE, IN_PLANE), (SPACE, IN_SPACE))
+    for name in known
+    if name not in ("turning", "lowest of a sphere")  # γ = 0: what they are about does not turn
+]
+
+
+@pytest.mark.mutant("γ of {name} left out, in the plane or in space")
+@pytest.mark.parametrize(("text", "name"), MOVED)
+def test_a_lost_gamma_is_seen(text: str, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    where, term = layout(text), (IN_PLANE if text == PLANE else IN_SPACE)[name]
+    planted(monkeypatch, type(term), lost_gamma)
+    assert left_of_gamma(held(term, ENDS["bodies"], where), where) > SEEN
+
+
+@pytest.mark.mutant("lever of {name} left out, in the plane or in space")
+@pytest.mark.parametrize("text", [PLANE, SPACE])
+@pytest.mark.parametrize("name", ["along", "line", "apart", "distance"])
+def test_a_lost_lever_is_seen(text: str, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    where, term = layout(text), (IN_PLANE if text == PLANE else IN_SPACE)[name]
+    planted(monkeypatch, type(term), lost_lever)
+    assert left_of_rates(held(term, ENDS["bodies"], where), where) > SEEN
+
+
+def planted(patch: pytest.MonkeyPatch, kind: Any, change: Callable[[Row], Row]) -> None:
+    sound = kind.row
+    patch.setattr(kind, "row", lambda *given: change(sound(*given)))
+
+
+@pytest.mark.mutant("{lost} of a direction that a body carries left out, in the plane or in space")
+@pytest.mark.parametrize("text", [PLANE, SPACE])
+@pytest.mark.parametrize("lost", ["u_dot", "beside"])
+def test_a_rate_of_a_direction_is_missed(
+    text: str, lost: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    where, term = layout(text), (IN_PLANE if text == PLANE else IN_SPACE)["line"]
+    sound = Kinematics.carried
+
+    def still(k: Kinematics, *given: Any) -> Direction:
+        return replace(sound(k, *given), **{lost: k.still})
+
+    monkeypatch.setattr(Kinematics, "carried", still)
+    assert left_of_gamma(held(term, ENDS["bodies"], where), where) > SEEN
+
+
+@pytest.mark.mutant("ω × x in space with the wrong sign of its z component")
+def test_a_mistake_in_a_product_of_vectors_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    where, cross = layout(SPACE), type(frame.SPACE).cross
+
+    def wrong(self: Any, w: Any, x: Any) -> Any:
+        found = cross(self, w, x)
+        return type(found)((found[0], -found[1], found[2]))
+
+    monkeypatch.setattr(type(frame.SPACE), "cross", wrong)
+    assert left_of_rates(held(IN_SPACE["along"], ENDS["bodies"], where), where) > SEEN

@@ -1,7 +1,6 @@
 """What acts about a turn in space, in the generated mechanism: values, laws, planted mistakes."""
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,8 +16,8 @@ from textmech.reference.solve import solve
 SHORT = scenes.tail(1.0, 6)
 
 
-def built(folder: Path, scene: str = torsion.SPATIAL) -> Any:
-    return scenes.mechanism(scenes.typed(folder, scene)).base
+def built(scene: str = torsion.SPATIAL) -> Any:
+    return scenes.mechanism(scenes.parsed(scene)).base
 
 
 def violated(mode: SpatialMultibody) -> float:
@@ -30,13 +29,13 @@ def violated(mode: SpatialMultibody) -> float:
 
 
 @pytest.mark.slow
-def test_laws(tmp_path: Path) -> None:
-    assert violated(built(tmp_path)) < EXACT
+def test_laws() -> None:
+    assert violated(built()) < EXACT
 
 
-def test_signs(tmp_path: Path) -> None:
+def test_signs() -> None:
     """About z as in the plane: the elbow's second part is the rod, turned by 70° on the arm."""
-    mode = built(tmp_path, torsion.FLAT)
+    mode = built(torsion.FLAT)
     q, v = mode.start()
     found = mode.ingredients.moments(np.pi / 8, q, v)
     alone = mode.forces(np.pi / 8, q, v)
@@ -52,17 +51,6 @@ def test_signs(tmp_path: Path) -> None:
         assert force[about_rod : about_rod + 3] == pytest.approx([0, 0, torque], rel=1e-14)
         assert force[about_arm : about_arm + 3] == pytest.approx([0, 0, -torque], rel=1e-14)
     assert alone["wire"][about_rod : about_rod + 3] == pytest.approx([0, 0, wire], rel=1e-14)
-
-
-@pytest.mark.slow
-def test_in_the_plane_it_is_the_plane_s(tmp_path: Path) -> None:
-    flat = scenes.typed(tmp_path, torsion.FLAT, tail=SHORT)
-    seen = solve(flat).trajectory
-    plane = scenes.typed(tmp_path, torsion.ARM, tail=SHORT)
-    known = solve(plane).trajectory
-    for name in ("wire.torque", "knee.angle", "oil.torque", "energy.total"):
-        apart = observe(flat.scene, seen, name) - observe(plane.scene, known, name)
-        assert np.max(np.abs(apart)) < 1e-11, name  # of 10 N m, 1.2 rad, 2 J
 
 
 def lost_couple(*given: Any) -> Any:
@@ -94,11 +82,10 @@ def test_a_wrong_torque_is_seen(
     room: Any,
     name: str,
     wrong: Callable[..., Any],
-    tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(room, name, wrong)
-    assert violated(built(tmp_path)) > 1e-3
+    assert violated(built()) > 1e-3
 
 
 def along_its_axis(turn: Any, *_: Any) -> Any:
@@ -119,22 +106,22 @@ ANGLE: Any = turning.SpatialTurn.angle.fget  # type: ignore[attr-defined]
     ("name", "wrong"), [("m", along_its_axis), ("gradient", along_its_axis), ("angle", unsigned)]
 )
 def test_a_mistaken_axis_is_seen(
-    name: str, wrong: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    name: str, wrong: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = wrong if name == "gradient" else property(wrong)
     monkeypatch.setattr(turning.SpatialTurn, name, own)
-    assert violated(built(tmp_path)) > 1e-3
+    assert violated(built()) > 1e-3
 
 
 WINDING = torsion.FLAT.replace("pull: {motor: hinge, ramp: 0.8}", "pull: {motor: hinge, ramp: 120}")
 
 
 @pytest.mark.slow
-def test_what_needs_no_angle_may_turn_on(tmp_path: Path) -> None:
+def test_what_needs_no_angle_may_turn_on() -> None:
     """A damper's angle has its turns counted; its torque is that of the rate."""
     wires = "    wire: {torsion: hinge, stiffness: 9.0, rest_angle: -30 deg}\n"
     free = WINDING.replace(wires, "    wire: {torsion_damper: hinge, damping: 0.1}\n")
-    case = scenes.typed(tmp_path, free)
+    case = scenes.parsed(free)
     motion = solve(case).trajectory
     turned = observe(case.scene, motion, "wire.angle")
     assert turned[-1] > 2 * np.pi
