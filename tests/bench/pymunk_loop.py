@@ -36,7 +36,7 @@ def plain(engine: Pymunk, scene: Scene, start: Start, step: float, plan: Plan) -
     law = plan.realised == "law"
     if law and not sayable(scene):
         return None
-    if plan.realised == "driver" and cuts(scene):
+    if cuts(scene):
         return None  # the script cuts no step
     numbers = numbers_by_name(plan.choices(step))
     world = build(scene, start, numbers, plan.realised)

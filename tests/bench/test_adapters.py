@@ -35,10 +35,10 @@ def test_a_plain_loop_makes_the_adapters_motion(name: str, engine: Engine) -> No
 
 
 LAWS = [
-    ("growing_force", "mujoco", {"law", "driver"}),  # breaks loose at 6 s
+    ("growing_force", "mujoco", {"law"}),  # breaks loose at 6 s
     ("growing_force", "pymunk", {"law"}),
     ("spring_mass_damper.underdamped", "pymunk", {"law"}),
-    ("stribeck_brake.thrown", "mujoco", {"law", "driver"}),  # which moves from the start on
+    ("stribeck_brake.thrown", "mujoco", {"law"}),  # which moves from the start on
     ("stribeck_brake.thrown", "pymunk", {"law"}),
 ]
 
@@ -114,11 +114,14 @@ def test_nor_is_another_law(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(row.differs for row in told)
 
 
-@pytest.mark.parametrize(("name", "way"), [("dynamometer_smooth", "law"), ("landing", "driver")])
+@pytest.mark.parametrize(
+    ("name", "way"), [("dynamometer_smooth", "law"), ("compass_walker", "driver")]
+)
 def test_what_has_no_plain_loop_says_so(name: str, way: str) -> None:
     """A law that no line says, and steps that are cut, which the script's are not."""
     found = list(rows(briefly(name, 0.1), [TUNED["pymunk"]], FEW))
-    assert [row.realised for row in found if row.because] == [way]
+    unwritten = [r.realised for r in found if r.because and "refused" not in r.because]
+    assert unwritten == [way]
     assert not any(row.differs for row in found)
 
 

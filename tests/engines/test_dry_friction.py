@@ -1,4 +1,4 @@
-"""Dry friction on a slide: natively with one bound; by our law and by our driver, the textbook's.
+"""Dry friction on a slide: natively with one bound; by our law the textbook's.
 
 Examples 2.3 (a growing force) and 2.4 (drawn by a spring), and the smooth law of the same.
 """
@@ -34,7 +34,7 @@ from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import OMEGA, VX, Array, X
 from textmech.engines.engine import Realised
 from textmech.engines.law import smooth_friction
-from textmech.engines.mujoco.callbacks import driver as stiction
+from textmech.engines.mujoco.callbacks import friction_law
 
 STEPS = {"mujoco": 1e-3, "pymunk": 1e-4}  # s: RK4 is of fourth order, position Verlet of second
 EIGHT, TEN = np.linspace(0.0, 8.0, 81), np.linspace(0.0, 10.0, 101)
@@ -52,8 +52,6 @@ class Near:
 NEAR: dict[tuple[str, Realised], Near] = {
     # The force is held over a step that slipping begins or ends in: h²/6, and several of them.
     ("mujoco", "law"): Near(growing=5e-7, drawn=8e-6, braking=8e-6),  # 1.7e-7, 2.7e-6, 2.5e-6
-    # Steps end at the events, which are found to rounding.
-    ("mujoco", "driver"): Near(growing=1e-11, drawn=2e-11, braking=1e-15),  # 3e-12, 6e-12, 1e-16
     # The law's mean over a step, exact where the force is linear; then Verlet's h².
     ("pymunk", "law"): Near(growing=5e-9, drawn=4e-8, braking=1e-15),  # 1.7e-9, 1.3e-8, 2e-16
 }
@@ -82,8 +80,8 @@ def test_block_under_a_growing_force(name: str, way: Realised) -> None:
 
 
 # A force held over a step that begins to slip inside it has the right impulse, and 6 − 3 N for a
-# part s of it: s (1 − s)/2 of 3 h² m at most, whatever comes after. The driver's step ends there.
-INSIDE = {"law": 3 / 8, "driver": 0.0}
+# part s of it: s (1 − s)/2 of 3 h² m at most, whatever comes after.
+INSIDE = 3 / 8
 
 
 @pytest.mark.slow
@@ -92,7 +90,7 @@ INSIDE = {"law": 3 / 8, "driver": 0.0}
 def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
     """With b = 1 N/s it slips where a step ends, and no formula for a part of one is asked."""
     x = _slips_inside(name, way, b)
-    bound = NEAR[name, way].growing + INSIDE[way] * STEPS[name] ** 2
+    bound = NEAR[name, way].growing + INSIDE * STEPS[name] ** 2
     assert np.abs(x - growing(EIGHT, b)).max() < bound
 
 
@@ -105,7 +103,7 @@ def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -
         limit = slide.friction.static.forward
         return slide.brakes(slide.sense, 0.0) if slide.sense * now >= limit else abs(now + soon) / 2
 
-    monkeypatch.setattr(stiction, "_breaking_loose", holds)
+    monkeypatch.setattr(friction_law, "_breaking_loose", holds)
     bound = NEAR["mujoco", "law"].growing
     assert np.abs(_slips_inside("mujoco", "law", 1.0) - growing(EIGHT)).max() < bound
     for b in (1.0007, 0.99):
@@ -137,11 +135,9 @@ def test_friction_to_and_fro(sign: int, force: float, name: str, way: Realised) 
     assert abs(run.states["block"][-1, X] - sign / (2 * force)) < NEAR[name, way].braking
 
 
-# m, in 4 s at h. Over the steps with a reversal the mean of two bounds is right to h²; the driver
-# cuts there.
+# m, in 4 s at h. Over the steps with a reversal the mean of two bounds is right to h².
 REVERSED: dict[tuple[str, Realised], float] = {
     ("mujoco", "law"): 2.2e-5,  # 7.3e-6
-    ("mujoco", "driver"): 3e-11,  # 8.8e-12
     ("pymunk", "law"): 5e-7,  # 1.7e-7
 }
 

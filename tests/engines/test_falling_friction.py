@@ -12,16 +12,14 @@ from textmech.cases.scene import DryFriction
 from textmech.cases.trajectory import ANGLE, Array, X
 from textmech.engines.engine import Realised, Start
 from textmech.engines.law import braking
-from textmech.engines.mujoco.callbacks import driver, stepping
 from textmech.engines.mujoco.callbacks import friction as of_mujoco
-from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 
 STEP = 1e-3  # s
-WAYS: list[tuple[str, Realised]] = [("mujoco", "law"), ("mujoco", "driver"), ("pymunk", "law")]
+WAYS: list[tuple[str, Realised]] = [("mujoco", "law"), ("pymunk", "law")]
 # m at this step. A law holds its force over a step, at the speed in the middle: of second order.
-# The driver asks for it at every stage: RK4. Measured 2.2e-6, 1.7e-11 and 1.6e-6.
-DRAWN = {("mujoco", "law"): 6e-6, ("mujoco", "driver"): 6e-11, ("pymunk", "law"): 5e-6}
+# Measured 2.2e-6 and 1.6e-6.
+DRAWN = {("mujoco", "law"): 6e-6, ("pymunk", "law"): 5e-6}
 
 
 def far(engine: str, way: Realised, name: str = "stribeck_drive") -> float:
@@ -36,33 +34,6 @@ def far(engine: str, way: Realised, name: str = "stribeck_drive") -> float:
 @pytest.mark.parametrize(("engine", "way"), WAYS)
 def test_it_sticks_and_slips(engine: str, way: Realised) -> None:
     assert far(engine, way) < DRAWN[engine, way]
-
-
-@pytest.mark.slow
-def test_the_driver_cuts_at_the_events(monkeypatch: pytest.MonkeyPatch) -> None:
-    """At F_s/(c u) = 6 s it slips; where it stops the reference has found it."""
-    scene, start = begun("stribeck_drive")
-    seen: list[float] = []
-    change = driver.Rubbing._change
-
-    def noting(self: driver.Rubbing, key: int) -> None:
-        seen.append(self.data.time)
-        change(self, key)
-
-    monkeypatch.setattr(driver.Rubbing, "_change", noting)
-    times = CASES["stribeck_drive"].times
-    moved(TUNED["mujoco"], scene, start, times, STEP, realised="driver")
-    slips, stops = follow(scenes.mechanism(CASES["stribeck_drive"]), times).events
-    assert slips.time == pytest.approx(6.0, abs=1e-12)
-    for event in (slips, stops):  # measured 1.3e-12 s
-        assert min(abs(t - event.time) for t in seen) < 1e-9
-
-
-@pytest.mark.slow
-@pytest.mark.mutant("falling friction held over the driver's steps")
-def test_mutant_force_held_over_the_driver_s_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stepping, "falling", lambda slide: [])
-    assert far("mujoco", "driver") > 1e3 * DRAWN["mujoco", "driver"]
 
 
 @pytest.mark.slow
@@ -95,8 +66,8 @@ def spun_down(times: Array) -> Array:
     return of * np.log(np.maximum(grown, 1.0))
 
 
-# rad/s: of a rotor that nothing else turns the mean over a step is right to h²; 2.9e-7, 1.2e-14.
-SPUN = {("mujoco", "law"): 1e-6, ("mujoco", "driver"): 1e-13, ("pymunk", "law"): 1e-6}
+# rad/s: of a rotor that nothing else turns the mean over a step is right to h²; 2.9e-7.
+SPUN = {("mujoco", "law"): 1e-6, ("pymunk", "law"): 1e-6}
 
 
 @pytest.mark.slow

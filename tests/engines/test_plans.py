@@ -61,7 +61,7 @@ ROUNDING = 1e-9  # m, rad, m/s: what a stop that differs in its last digits may 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["anisotropic_drift", "dynamometer", "dynamometer_smooth"])
 def test_tied_numbers_that_are_said_to_make_no_difference_make_none(name: str) -> None:
-    """Under our law and driver MuJoCo's friction holds what lies still: how softly is all one."""
+    """Under our law MuJoCo's friction holds what lies still: how softly is all one."""
     ours = [plan for plan in TUNED["mujoco"].plans(*begun(name)) if plan.realised != "native"]
     for plan in ours:
         assert isinstance(plan, Plan)
@@ -135,14 +135,14 @@ WAYS: dict[str, tuple[tuple[Scene, Start], dict[str, dict[str, tuple[int, int]]]
     "dry friction": (
         DRY,
         {
-            "mujoco": {"native": (1, 2), "law": (1, 2), "driver": (4, 5)},
+            "mujoco": {"native": (1, 2), "law": (1, 2)},
             "pymunk": {"native": (1, 2), "law": (2, 3)},
         },
     ),
     "dry friction under a pulse": (
         PULSED,
         {
-            "mujoco": {"native": (1, 2), "law": (1, 2), "driver": (1, 2)},
+            "mujoco": {"native": (1, 2), "law": (1, 2)},
             "pymunk": {"native": (1, 2), "law": (1, 2)},
         },
     ),
@@ -150,7 +150,7 @@ WAYS: dict[str, tuple[tuple[Scene, Start], dict[str, dict[str, tuple[int, int]]]
     "a floor with two coefficients": (
         TWO,
         {
-            "mujoco": {"native": (1, 2), "law": (1, 2), "driver": (1, 2)},
+            "mujoco": {"native": (1, 2), "law": (1, 2)},
             "pymunk": {"native": (1, 2), "law": (2, 3)},
         },
     ),

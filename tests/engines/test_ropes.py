@@ -6,14 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 from given import ropes, scenes
-from given.planning import TUNED, moved, refused, ways
+from given.planning import TUNED, moved
 
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
-from textmech.engines.engine import Realised, Start
-from textmech.engines.mujoco.callbacks import rope_impact as catch
-from textmech.engines.mujoco.callbacks import rope_limit as taut
+from textmech.engines.engine import Start
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
 
@@ -21,12 +19,8 @@ END = scenes.tail(1.0, 26)
 STEP = 1e-4
 AWAY = 0.03  # s: from what comes taut; a soft limit needs 4 ms to come to what it carries
 # m and rad, N; measured: MuJoCo's own throws back up to 1.5 % of what it catches, 7.5e-3 m later,
-# pymunk's up to 1 %; by the driver a start that is tied to the step makes 2e-7, forces 9e-4.
-REACHED = {
-    ("mujoco", "native"): (2e-2, 0.1),
-    ("mujoco", "driver"): (1e-6, 2e-3),
-    ("pymunk", "native"): (2e-2, 0.2),
-}
+# pymunk's up to 1 %.
+REACHED = {"mujoco": (2e-2, 0.1), "pymunk": (2e-2, 0.2)}
 
 
 def known(tmp_path: Path, name: str) -> tuple[Case, Trajectory, Start]:
@@ -48,44 +42,15 @@ def off(case: Case, motion: Trajectory, found: Trajectory, forces: tuple[str, ..
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ropes.EVERY)
-@pytest.mark.parametrize(("engine", "realised"), REACHED, ids=".".join)
-def test_engines_move_as_the_reference(
-    engine: str, realised: Any, name: str, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("engine", REACHED)
+def test_engines_move_as_the_reference(engine: str, name: str, tmp_path: Path) -> None:
     case, motion, start = known(tmp_path, name)
     forces = tuple(quantity for quantity in case.allow if quantity.endswith("force"))
-    found = moved(
-        TUNED[engine], case.scene, start, case.times, STEP, realised=realised, reactions=forces
-    )
+    found = moved(TUNED[engine], case.scene, start, case.times, STEP, reactions=forces)
     places, pulls = off(case, motion, found, forces)
-    assert places < REACHED[engine, realised][0]
+    assert places < REACHED[engine][0]
     if name != "pair":  # a pull of 0.04 N, which their own ropes lose to what they throw back
-        assert pulls < REACHED[engine, realised][1]
-
-
-@pytest.mark.slow
-def test_the_driver_takes_the_impact_exactly(tmp_path: Path) -> None:
-    """What it catches is free afterwards: nothing of a limit is left in the motion."""
-    case, motion, start = known(tmp_path, "towed")
-    found = moved(
-        TUNED["mujoco"], case.scene, start, case.times, 1e-3, realised="driver",
-        reactions=("rope.force",),
-    )  # fmt: skip
-    assert np.max(np.abs(found.states["sled"] - motion.states["sled"])) < 1e-11
-
-
-@pytest.mark.slow
-@pytest.mark.mutant("a rope that catches without its lever")
-def test_a_driver_that_forgets_the_lever_is_seen(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def level(self: taut.Tendons, rows: Any) -> Any:
-        return rows
-
-    monkeypatch.setattr(catch.Tendons, "eased", level)
-    case, motion, start = known(tmp_path, "towed")
-    found = moved(TUNED["mujoco"], case.scene, start, case.times, 1e-3, realised="driver")
-    assert np.max(np.abs(found.states["sled"] - motion.states["sled"])) > 1e-2
+        assert pulls < REACHED[engine][1]
 
 
 @pytest.mark.slow
@@ -114,44 +79,16 @@ allow: {a.x: 1.0e-3, r.force: 0.1}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("engine", "way"), [("mujoco", "native"), ("mujoco", "driver"), ("pymunk", "native")]
-)
-def test_what_hangs_at_rest_is_held_from_the_first_sample_on(
-    engine: str, way: Realised, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("engine", TUNED)
+def test_what_hangs_at_rest_is_held_from_the_first_sample_on(engine: str, tmp_path: Path) -> None:
     """A limit that is just met pulls nothing in MuJoCo."""
     case = scenes.typed(tmp_path, HANGS, tail=END)
     motion = solve(case).trajectory
     found = moved(
-        TUNED[engine], case.scene, first(motion), case.times, STEP, realised=way,
-        reactions=("r.force",),
-    )  # fmt: skip
+        TUNED[engine], case.scene, first(motion), case.times, STEP, reactions=("r.force",)
+    )
     assert motion.reactions["r.force"][0] == pytest.approx(2 * 9.80665, rel=1e-12)
     assert found.reactions["r.force"] == pytest.approx(motion.reactions["r.force"], abs=0.02)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("engine", "found"), [("mujoco", ("native", "driver")), ("pymunk", ("native",))]
-)
-def test_ways(engine: str, found: tuple[str, ...], tmp_path: Path) -> None:
-    case, _, start = known(tmp_path, "held")
-    assert ways(TUNED[engine], case.scene, start) == found
-
-
-def test_mujoco_s_driver_leaves_what_else_gives_way_alone(tmp_path: Path) -> None:
-    floor = (
-        ropes.PAIR.replace(
-            "  forces:",
-            "  contacts: {touch: {between: [two, ground.floor], friction: 0}}\n  forces:",
-        )
-        .replace("y: 0, vx: 1.0", "y: 0.3, vx: 1.0")
-        .replace("two.y: 1.0e-2, ", "")
-    )
-    case = scenes.typed(tmp_path, floor, tail=END)
-    assert not catch.catches(case.scene)
-    assert refused(TUNED["mujoco"], case.scene) is None
 
 
 COARSE = """\
@@ -173,6 +110,6 @@ def test_what_a_coarse_step_catches_is_hardly_thrown_back(tmp_path: Path) -> Non
         text = COARSE.replace("BEGIN", str(begin))
         case = scenes.typed(tmp_path, text, tail=scenes.tail(0.5, 6))
         start = first(solve(case).trajectory)
-        found = moved(TUNED["pymunk"], case.scene, start, case.times, 1e-3, realised="native")
+        found = moved(TUNED["pymunk"], case.scene, start, case.times, 1e-3)
         speed = found.states["ball"][-1, 3]
         assert abs(speed) < 0.05 * 2.0  # with 150/s at any step: up to 0.15

@@ -1,15 +1,22 @@
 """Two coefficients of friction on a floor that carries less and less, or more and more."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from given.engine_scenes import BLOCK, G, incline, thrown, touching
-from given.planning import NAMES, TUNED, moved
+from given.planning import CASES, NAMES, TUNED, begun, moved
+from given.scenes import solved
 
-from textmech.cases.scene import Anchor, Push, Scene, Signal
-from textmech.cases.trajectory import Array, X
+from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Scene, Signal
+from textmech.cases.trajectory import VX, Array, X
+from textmech.engines.engine import Diverged
+from textmech.engines.mujoco.callbacks.contact_friction import Touch
 
 STATIC, KINETIC, F, P = 0.6, 0.4, 6.0, 5.003  # N, and N/s up: it slips inside a step
 AT = Anchor("block", "center")
+MUJOCO = TUNED["mujoco"]
 
 
 def lifted(way: int) -> Scene:
@@ -76,3 +83,65 @@ def test_a_block_slips_when_its_bound_has_been_overtaken(name: str, way: int) ->
     run = moved(TUNED[name], pressed(way), thrown(0.0), times, step, realised="law")
     error = np.abs(way * run.states["block"][:, X] - drawn(times)).max()
     assert error < PRESSED[name]
+
+
+PULLED = (2.0, 15.0)  # N on a kilogram: up for 0.2 s, which is more than it weighs
+
+
+def lifted_off(until: float) -> float:
+    """m/s that a block is off which a pull has lifted off, sliding, from 0.1 s on: nothing rubs.
+
+    It comes down at 0.586 s with 1.765 m/s, of which friction's blow takes 0.3, and stops.
+    """
+    pull = Signal("pulse", PULLED, times=(0.1, 0.3))
+    floor = incline(replace(BLOCK, mass=1.0), touching("block", 0.3, static=0.6))
+    scene = replace(floor, forces={"pull": Push("pull", Anchor("block", "center"), pull)})
+    times = np.linspace(0.0, until, round(until / 0.05) + 1)
+    run = moved(MUJOCO, scene, thrown(0.5), times, 1e-3, realised="law")
+    rubbed, pulled = np.minimum(times, 0.1), np.clip(times - 0.1, 0.0, 0.2)
+    exact = 0.5 - 0.3 * G * rubbed + PULLED[0] * pulled
+    rise = PULLED[1] - G
+    lands = 0.3 + (rise * 0.2 + math.sqrt((rise * 0.2) ** 2 + 2 * G * rise * 0.02)) / G
+    blow = 0.3 * (G * (lands - 0.3) - rise * 0.2)
+    exact = np.where(times < lands, exact, np.maximum(exact - blow - 0.3 * G * (times - lands), 0))
+    return float(np.abs(run.states["block"][:, VX] - exact).max())
+
+
+# m/s. The law rubs as in the step before: one step too long, 0.3 g h = 2.942e-3, as measured.
+LIFTS = 3e-3
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("law of a contact that rubs where nothing touches")
+def test_what_is_lifted_off_is_not_rubbed(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert lifted_off(0.5) < LIFTS
+    with pytest.raises(Diverged, match="comes down again"):
+        lifted_off(1.0)
+    bounds = Bounds(0.3 * G, 0.3 * G)
+    monkeypatch.setattr(Touch, "friction", property(lambda self: DryFriction(bounds, bounds)))
+    assert lifted_off(0.5) > 0.1
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("law of a contact that goes on through a blow")
+def test_a_blow_that_no_law_follows_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Touch, "look", lambda self: None)
+    assert lifted_off(0.65) > 0.1
+
+
+@pytest.mark.mutant("kinetic friction at rest")
+def test_kinetic_friction_at_rest_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    def kinetic(self: Touch) -> DryFriction:
+        bounds = Bounds(*(2 * (self.contact.kinetic * self.normal,)))
+        return DryFriction(bounds, bounds)
+
+    case = CASES["friction_cone.forward"]
+    exact = solved(case.name).trajectory.states["block"][:, X]
+
+    def off() -> float:
+        run = moved(MUJOCO, *begun(case.name), case.times, 1e-3, realised="law")
+        return float(np.abs(run.states["block"][:, X] - exact).max())
+
+    assert off() < 1e-6
+    monkeypatch.setattr(Touch, "friction", property(kinetic))
+    assert off() > 1e-2

@@ -29,8 +29,6 @@ SHIPPED = {name: engines.make(name, "shipped") for name in NAMES}
 
 SPATIAL = {"mujoco"}
 """The engines that have space."""
-EDGES: Mapping[str, Realised] = {"mujoco": "law", "pymunk": "driver"}
-"""How edges are held, by the tuned settings alone: no engine has one of its own."""
 
 
 def builds(engine: Engine, scene: Scene) -> bool:
@@ -103,9 +101,7 @@ def way_of(engine: Engine, scene: Scene) -> Realised:
     """How a tuned engine runs it."""
     if own(engine, scene):
         return "native"
-    if strides(scene):
-        return "driver"
-    return EDGES[engine.name] if scene.constraints else "law"
+    return "driver" if strides(scene) else "law"
 
 
 NATIVE = [(name, e) for name, e in PAIRS if own(e, EVERY[name].scene)]

@@ -97,7 +97,7 @@ SLIPPING = given.incline(given.BLOCK, given.touching("block", 0.2, static=0.5), 
 PARTS = ("qpos", "qvel", "qacc_warmstart", "qfrc_applied", "ctrl", "act", "time", "ncon", "nefc")
 RUNS: dict[str, tuple[Scene, Start, Realised]] = {
     "by law": (*begun("anisotropic_drift"), "law"),
-    "by driver": (*begun("anisotropic_drift"), "driver"),
+    "by driver": (*begun("compass_walker"), "driver"),
     "by the smooth law": (*begun("dynamometer_smooth"), "law"),
     "by a contact's law": (SLIPPING, given.thrown(1.0), "law"),
     "settled": (*begun("rolling_wheel.pushed"), "native"),

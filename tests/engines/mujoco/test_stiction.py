@@ -7,7 +7,7 @@ from given.planning import TUNED, moved
 
 from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import VX, Array
-from textmech.engines.mujoco.callbacks import driver as stiction
+from textmech.engines.mujoco.callbacks import friction_law
 
 H, BRAKES = 1e-3, 3.0  # s; N on 1 kg
 TIMES = np.linspace(0.0, 40 * H, 41)
@@ -28,5 +28,5 @@ def test_what_stops_within_a_step_rests_at_its_end(monkeypatch: pytest.MonkeyPat
         found = speeds(part)
         assert found[:11] == pytest.approx(BRAKES * H * (10 + part - np.arange(11)), rel=1e-9)
         assert np.max(np.abs(found[11:])) < 1e-9 * found[0]  # 2e-14
-    monkeypatch.setattr(stiction, "_FAR", 0.5)
+    monkeypatch.setattr(friction_law, "_FAR", 0.5)
     assert speeds(0.6)[11] < -0.3 * BRAKES * H

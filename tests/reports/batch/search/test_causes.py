@@ -48,7 +48,7 @@ def of(
         ("four_bar", "mujoco", "D.gap", ["RK4 + softness of loops", "softness of loops + step"]),
         ("sliding_block.below", "mujoco", "block.x", ["impratio 1e6"]),
         ("growing_force", "pymunk", "block.x", [OURS["law"]]),
-        ("growing_force", "mujoco", "block.x", [OURS["law"], OURS["driver"]]),
+        ("growing_force", "mujoco", "block.x", [OURS["law"]]),
         ("planar_bodies", "pymunk", "energy.kinetic", [NOTHING]),
     ],
 )
