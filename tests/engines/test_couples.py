@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from given import scenes, torsion
 from given.engine_space import STILL
-from given.planning import TUNED, moved, planned, refused, ways
+from given.planning import TUNED, apart, moved, planned, refused, ways
 
 from textmech.cases.case import Case
 from textmech.cases.scene.forces.force import Couple
@@ -136,8 +136,7 @@ def test_engines_turn_as_the_reference(engine: str, realised: str, tmp_path: Pat
         TUNED[engine], case.scene, start, case.times, FINE[engine],
         realised=realised, reactions=wanted,  # type: ignore[arg-type]
     )  # fmt: skip
-    for body, rows in known.states.items():
-        assert np.max(np.abs(found.states[body][:, :3] - rows[:, :3])) < REACHED[engine, realised]
+    assert apart(known, found)[:3].max() < REACHED[engine, realised]
     for name in wanted:
         assert np.max(np.abs(found.reactions[name] - known.reactions[name])) < 1e-5
 
@@ -183,9 +182,7 @@ def test_mujoco_closes_a_loop_by_a_pin_about_which_nothing_acts(tmp_path: Path) 
     known = solve(case).trajectory
     start: Start = {body: tuple(rows[0].tolist()) for body, rows in known.states.items()}  # type: ignore[misc]
     found = moved(TUNED["mujoco"], case.scene, start, case.times, 1e-4)
-    for body, rows in known.states.items():
-        off = np.max(np.abs(found.states[body][:, :3] - rows[:, :3]))
-        assert off < 5e-7, body  # measured 1.6e-7 of the rocker: the pin is soft
+    assert apart(known, found)[:3].max() < 5e-7  # measured 1.6e-7 of the rocker: the pin is soft
 
 
 @pytest.mark.mutant("a pin with a spring taken to close a loop")
@@ -226,7 +223,7 @@ def both(case: Case) -> tuple[Trajectory, Trajectory]:
     )
 
 
-def apart(case: Case) -> dict[str, float]:
+def joint_off(case: Case) -> dict[str, float]:
     """Of each quantity the largest difference to the reference's."""
     known, found = both(case)
     pairs = {name: [observe(case.scene, of, name) for of in (known, found)] for name in case.allow}
@@ -237,7 +234,7 @@ def apart(case: Case) -> dict[str, float]:
 @pytest.mark.parametrize("scene", [torsion.SPATIAL, DRIVEN], ids=["free", "driven"])
 def test_mujoco_turns_as_the_reference(scene: str, tmp_path: Path) -> None:
     """Of a driven turn the drive's torque is told apart from those of spring, damper and motor."""
-    off = apart(scenes.typed(tmp_path, scene, tail=IN_SPACE))
+    off = joint_off(scenes.typed(tmp_path, scene, tail=IN_SPACE))
     assert max(off.values()) < SPATIAL, off
     assert ("wrist.phi_torque" in off) == (scene is DRIVEN)
 
@@ -248,7 +245,7 @@ def test_a_drive_s_torque_with_the_spring_s_in_it_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reaction, "_beside", lambda *_: ())
-    off = apart(scenes.typed(tmp_path, DRIVEN, tail=IN_SPACE))
+    off = joint_off(scenes.typed(tmp_path, DRIVEN, tail=IN_SPACE))
     assert off.pop("wrist.phi_torque") > 0.1
     assert max(off.values()) < SPATIAL
 

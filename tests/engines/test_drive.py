@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.planning import TUNED, every, moved, refused
+from given.planning import TUNED, apart, every, moved, refused
 
 from textmech.cases.scene import Anchor, GroundPoint, Push, Scene, Signal
 from textmech.cases.scene.joint import planar_joint
@@ -46,9 +46,8 @@ def off(engine: str, folder: Path) -> tuple[float, float]:
     wanted = FORCES if engine == "mujoco" else ()
     found = moved(TUNED[engine], case.scene, first(known), case.times, 5e-4, reactions=wanted,
                   realised="law" if engine == "pymunk" else "native")  # fmt: skip
-    apart = [np.max(np.abs(found.states[b][:, :3] - known.states[b][:, :3])) for b in known.states]
     forces = [np.max(np.abs(found.reactions[n] - known.reactions[n])) for n in wanted]
-    return float(max(apart)), float(max(forces, default=0.0))
+    return float(apart(known, found)[:3].max()), float(max(forces, default=0.0))
 
 
 @pytest.mark.slow
@@ -160,7 +159,7 @@ def scene(law: Signal) -> Scene:
     )
 
 
-def jump_off(engine: str, law: Signal) -> float:
+def momentum_off(engine: str, law: Signal) -> float:
     """How far [m/s] the speed at the samples is from the force's area over the mass."""
     built = scene(law)
     found = moved(TUNED[engine], built, {"cart": (0.0,) * 6}, TIMES, ENGINES[engine])
@@ -173,8 +172,8 @@ def jump_off(engine: str, law: Signal) -> float:
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("engine", ENGINES)
 def test_the_momentum_is_that_of_the_force(engine: str, law: str) -> None:
-    assert jump_off(engine, LAWS[law]) < 1e-11
-    assert jump_off(engine, ON_STEPS[law]) < 1e-11
+    assert momentum_off(engine, LAWS[law]) < 1e-11
+    assert momentum_off(engine, ON_STEPS[law]) < 1e-11
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -193,7 +192,7 @@ def test_a_force_sampled_inside_the_step_is_seen(law: str, monkeypatch: pytest.M
     monkeypatch.setattr(Corners, "_touched", lambda self: iter(()))
     monkeypatch.setattr(signal, "touches", lambda *given: False)
     for engine in ENGINES:
-        assert jump_off(engine, LAWS[law]) > 1e-4
+        assert momentum_off(engine, LAWS[law]) > 1e-4
 
 
 @pytest.mark.mutant("a {law} of a force that begins where a step ends, told to its last stage")
@@ -206,7 +205,7 @@ def test_a_stage_at_the_end_of_a_step_that_knows_the_jump_is_seen(
         round(corner / self.step) for law in self.laws for corner in law.corners
     )
     monkeypatch.setattr(Corners, "_touched", after)
-    assert jump_off("mujoco", ON_STEPS[law]) == pytest.approx(F * 1e-3 / 6 / M, rel=1e-6)
+    assert momentum_off("mujoco", ON_STEPS[law]) == pytest.approx(F * 1e-3 / 6 / M, rel=1e-6)
 
 
 def pressed(setting: Engine, at: float) -> float:

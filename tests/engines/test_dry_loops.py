@@ -5,13 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.planning import TUNED, moved
+from given.planning import TUNED, apart, certified, moved
 
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.mujoco.callbacks import friction, smooth
-from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
 
 # Two carts on a rod, of which the one that is pulled runs freely.
@@ -78,10 +77,7 @@ NEAR = {
 
 def known(tmp_path: Path, what: str) -> tuple[Case, Trajectory]:
     tail = scenes.tail(0.4, 41) if what == "crank" else scenes.tail(0.9, 46)
-    case = scenes.typed(tmp_path, SCENES[what], tail=tail)
-    solution = solve(case)
-    assert solution.holds
-    return case, solution.trajectory
+    return certified(tmp_path, SCENES[what], tail)
 
 
 def off(case: Case, motion: Trajectory) -> tuple[float, float]:
@@ -90,9 +86,8 @@ def off(case: Case, motion: Trajectory) -> tuple[float, float]:
         TUNED["mujoco"], case.scene, first(motion), case.times, STEP, realised="law",
         reactions=("R.friction",),
     )  # fmt: skip
-    places = [np.abs(found.states[b] - rows)[:, :3].max() for b, rows in motion.states.items()]
     rubs = observe(case.scene, found, "R.friction") - observe(case.scene, motion, "R.friction")
-    return max(places), float(np.abs(rubs).max())
+    return float(apart(motion, found)[:3].max()), float(np.abs(rubs).max())
 
 
 @pytest.mark.slow

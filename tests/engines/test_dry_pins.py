@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from given import rubbing, scenes
 from given.outside import solved
-from given.planning import TUNED, moved, planned, refused, ways
+from given.planning import TUNED, apart, moved, planned, refused, ways
 from given.rubbing import HELD, HUNG
 
 from textmech.cases.case import Case
@@ -205,17 +205,9 @@ step: {pymunk: 5.0e-4}
 def off(folder: Path, text: str) -> float:
     """The largest difference of places, angles and rates by our law, of scenes of size 1."""
     case, reference = solved(folder, text)
-    start = {name: tuple(rows[0].tolist()) for name, rows in reference.states.items()}
-    engine = Pymunk("tuned")
-    (plan,) = (
-        plan
-        for plan in engine.plans(case.scene, start)  # type: ignore[arg-type]
-        if isinstance(plan, Plan) and plan.realised == "law"
-    )
-    found = engine.run(case.scene, start, case.times, 5e-4, plan, reactions=(), record=False)  # type: ignore[arg-type]
-    return max(
-        float(np.max(np.abs(found.states[name] - rows))) for name, rows in reference.states.items()
-    )
+    start = first(reference)
+    found = moved(TUNED["pymunk"], case.scene, start, case.times, 5e-4, realised="law")
+    return float(apart(reference, found).max())
 
 
 @pytest.mark.slow
@@ -315,7 +307,7 @@ NEAR = {"mujoco": 1e-4, "pymunk": 2e-2}  # N, of some 20 N at 2e-4 s
 ROUGH = 2e-4  # s
 
 
-def strayed(name: str, what: str, tmp_path: Path) -> dict[str, float]:
+def rail_off(name: str, what: str, tmp_path: Path) -> dict[str, float]:
     """By the way in which the engine runs it [N], where its force is read."""
     case = scenes.typed(tmp_path, SCENES[what], tail=scenes.tail(0.4, 21))
     motion = solve(case).trajectory
@@ -333,7 +325,7 @@ def strayed(name: str, what: str, tmp_path: Path) -> dict[str, float]:
 @pytest.mark.parametrize("name", NEAR)
 @pytest.mark.parametrize("what", SCENES)
 def test_engines_read_the_force_of_the_book(name: str, what: str, tmp_path: Path) -> None:
-    found = strayed(name, what, tmp_path)
+    found = rail_off(name, what, tmp_path)
     assert found
     assert max(found.values()) < NEAR[name]
 
@@ -345,4 +337,4 @@ def test_damping_that_is_read_as_its_force_is_seen(
     what: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reaction, "damped", lambda scene, joint: [])
-    assert strayed("mujoco", what, tmp_path)["native"] > 0.05
+    assert rail_off("mujoco", what, tmp_path)["native"] > 0.05

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import ropes, scenes
-from given.planning import SHIPPED, TUNED, moved, planned, refused, ways
+from given.planning import SHIPPED, TUNED, apart, moved, planned, refused, ways
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene, Spring
@@ -164,10 +164,10 @@ def both(tmp_path_factory: pytest.TempPathFactory) -> Moving:
     return Moving(case, solve(case).trajectory)
 
 
-def strayed(both: Moving, engine: str) -> float:
+def sided_off(both: Moving, engine: str) -> float:
     times = both.case.times
     run = moved(TUNED[engine], both.scene, both.start, times, SIDED_STEP, realised=WAY[engine])
-    return float(np.max(np.abs(run.states["rod"][:, :3] - both.known.states["rod"][:, :3])))
+    return float(apart(both.known, run)[:3].max())
 
 
 @pytest.mark.slow
@@ -175,7 +175,7 @@ def strayed(both: Moving, engine: str) -> float:
 def test_engines_follow_the_reference(engine: str, both: Moving) -> None:
     switches = len(both.known.switches)
     assert switches >= 2  # or nothing is tried
-    assert strayed(both, engine) < SIDED[engine]
+    assert sided_off(both, engine) < SIDED[engine]
 
 
 def two_sided(force: Spring, length: float, rate: float) -> float:
@@ -189,14 +189,14 @@ def two_sided(force: Spring, length: float, rate: float) -> float:
 def test_a_spring_of_both_sides_is_seen(both: Moving, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the law that pymunk is told, and in the dead band that MuJoCo is."""
     monkeypatch.setitem(TENSIONS, Spring, two_sided)
-    assert strayed(both, "pymunk") > 1e-2
+    assert sided_off(both, "pymunk") > 1e-2
     element = ELEMENTS[Spring]
 
     def without_band(sections: Any, force: Spring) -> None:
         element.write(sections, replace(force, only=None))
 
     monkeypatch.setitem(ELEMENTS, Spring, replace(element, write=without_band))
-    assert strayed(both, "mujoco") > 1e-2
+    assert sided_off(both, "mujoco") > 1e-2
 
 
 def test_pymunk_has_none_of_its_own(both: Moving) -> None:
@@ -266,9 +266,8 @@ def stop_off(engine: str, case: Case, motion: Trajectory) -> tuple[float, float]
         reactions=("ends.low", "ends.high"),
     )
     away = np.min(np.abs(case.times[:, None] - motion.switches), axis=1) > STOP_AWAY
-    angles = [np.abs(found.states[b] - rows)[:, 2].max() for b, rows in motion.states.items()]
     torque = observe(case.scene, found, "ends.torque") - observe(case.scene, motion, "ends.torque")
-    return max(angles), float(np.abs(torque)[away].max())
+    return float(apart(motion, found)[2]), float(np.abs(torque)[away].max())
 
 
 @pytest.mark.slow
@@ -338,16 +337,13 @@ def test_stops_that_throw_back_differently_have_springs_of_their_own(tmp_path: P
     assert [limit.back for limit in case.scene.limits()] == [0.5, 0.0]
     scene = case.scene
 
-    def apart(**restitution: float) -> float:
+    def off_by(**restitution: float) -> float:
         stops = {n: replace(scene.forces[n], restitution=e) for n, e in restitution.items()}
         told = replace(scene, forces={**scene.forces, **stops})
         found = moved(TUNED["mujoco"], told, first(motion), case.times, 1e-4)
-        return max(
-            float(np.abs(found.states[body] - rows)[:, 2].max())
-            for body, rows in motion.states.items()
-        )
+        return float(apart(motion, found)[2])
 
-    assert apart() < 0.02 < 0.1 < apart(more=0.5)  # rad: the elbow's spring keeps 0.5 to 1 %
+    assert off_by() < 0.02 < 0.1 < off_by(more=0.5)  # rad: the elbow's spring keeps 0.5 to 1 %
 
 
 PRESSED = """\

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from given import scenes
 from given.engine_scenes import GROWING, guided
-from given.planning import TUNED, begun, moved, planned
+from given.planning import TUNED, apart, begun, certified, moved, planned
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Signal
@@ -16,7 +16,6 @@ from textmech.engines.engine import Realised
 from textmech.engines.mujoco.callbacks import friction_law, smooth
 from textmech.engines.mujoco.callbacks import rope_limit as taut
 from textmech.engines.mujoco.model import contact
-from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
 
 # At its length, and on the way to its anchor; gravity would pull it taut.
@@ -46,10 +45,7 @@ allow: {cart.x: 1.0e-2, rod.angle: 1.0e-2}
 
 
 def known(folder: Path, text: str, duration: float, samples: int = 26) -> tuple[Case, Trajectory]:
-    case = scenes.typed(folder, text, tail=scenes.tail(duration, samples))
-    solution = solve(case)
-    assert solution.holds
-    return case, solution.trajectory
+    return certified(folder, text, scenes.tail(duration, samples))
 
 
 def off(
@@ -57,9 +53,7 @@ def off(
 ) -> Array:
     """(6,) how far states are from the reference's, of any body."""
     found = moved(TUNED[engine], case.scene, first(motion), case.times, step, realised=way)
-    apart = [np.abs(found.states[name] - rows) for name, rows in motion.states.items()]
-    largest: Array = np.max(np.concatenate(apart), axis=0)
-    return largest
+    return apart(motion, found)
 
 
 # Two disks meet at 0.082 s, not along the line of their centres, and rub while they do.

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 import pytest
 from given import scenes, slowed
-from given.planning import CASES, SHIPPED, TUNED, begun, moved, refused, ways
+from given.planning import CASES, SHIPPED, TUNED, apart, begun, moved, refused, ways
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case
@@ -96,19 +96,16 @@ def test_typed_values_of_what_has_a_state(row: dict[str, Any]) -> None:
 NOWHERE: Any = None  # a muscle asks nothing of its scene
 
 
-def apart(engine: str, known: tuple[Case, Trajectory, Start], h: float) -> float:
+def off(engine: str, known: tuple[Case, Trajectory, Start], h: float) -> float:
     case, motion, start = known
     found = moved(TUNED[engine], case.scene, start, case.times, h, realised="law")
-    return max(
-        float(np.max(np.abs(found.states[body][:, :3] - rows[:, :3])))
-        for body, rows in motion.states.items()
-    )
+    return float(apart(motion, found)[:3].max())
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", STEP)
 def test_engines_move_as_the_reference(engine: str, known: tuple[Case, Trajectory, Start]) -> None:
-    assert apart(engine, known, STEP[engine]) < REACHED[engine]
+    assert off(engine, known, STEP[engine]) < REACHED[engine]
 
 
 @pytest.mark.slow
@@ -140,7 +137,7 @@ def test_a_lost_law_and_a_wrong_sign_are_seen(
             return lambda t, points: [(way * x, way * y) for x, y in law(t, points)]
 
         monkeypatch.setitem(told.TOLD, KINDS[kind], wrong)
-        assert apart(engine, known, STEP[engine]) > 1e-3
+        assert off(engine, known, STEP[engine]) > 1e-3
 
 
 @pytest.mark.parametrize("engine", STEP)

@@ -8,7 +8,7 @@ import numpy as np
 import pymunk
 import pytest
 from given import scenes
-from given.planning import TUNED, begun, every, moved
+from given.planning import TUNED, apart, begun, certified, every, moved
 
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Array, Trajectory
@@ -46,17 +46,13 @@ allow: {rod.angle: 1.0e-2}
 
 
 def known(folder: Path, text: str, duration: float) -> tuple[Case, Trajectory]:
-    case = scenes.typed(folder, text, tail=scenes.tail(duration, 26))
-    solution = solve(case)
-    assert solution.holds
-    return case, solution.trajectory
+    return certified(folder, text, scenes.tail(duration, 26))
 
 
-def off(case: Case, motion: Trajectory, step: float, way: Realised, body: str = "rod") -> Array:
-    """(6,) how far the states of a body are from the reference's."""
+def off(case: Case, motion: Trajectory, step: float, way: Realised) -> Array:
+    """(6,) how far the states are from the reference's."""
     found = moved(PYMUNK, case.scene, first(motion), case.times, step, realised=way)
-    largest: Array = np.abs(found.states[body] - motion.states[body]).max(axis=0)
-    return largest
+    return apart(motion, found)
 
 
 def test_a_force_is_told_the_spin_of_its_point(tmp_path: Path) -> None:
