@@ -45,7 +45,7 @@ def ways(scene: Scene, start: Start, *, tuned: bool) -> tuple[Realised, ...]:
 
 
 def _ours(scene: Scene, realised: Realised) -> list[str]:
-    """What our law or driver does."""
+    """Describes what our law or driver does."""
     if realised == "native":
         return []
     words = []
