@@ -76,7 +76,7 @@ class MuJoCo:
         return self.options.get("shapes", "")
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively; edges, dry friction and corners of springs in other ways too, if tuned."""
+        """Natively; if tuned, edges and dry friction also by their laws, feet by a driver."""
         scene, start = with_rods(scene, start)
         refusal = (
             unbuildable(scene)

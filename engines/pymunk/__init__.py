@@ -60,7 +60,7 @@ class Pymunk:
         return self.setting == "tuned"
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
-        """Natively; if tuned, dampers and dry friction also by their laws, edges by a driver."""
+        """Natively; if tuned, dampers, dry friction and edges by their laws, feet by a driver."""
         shape = self._shape
         refusal = unbuildable(scene) or (shape and refused(scene, shape, self.options))
         if refusal:
@@ -187,8 +187,7 @@ def _run(
     felt_by = {*scene.contacts, *scene.pairs, *world.limits}
     touching = tuple(name for name in felt if name.rpartition(".")[0] in felt_by)
     midpoint = bool(numbers.get("time.midpoint"))
-    cut = realised == "driver" and cuts(scene)
-    kept = Record(world, step, midpoint, touching, cut) if record else None
+    kept = Record(world, step, midpoint, touching, cuts(scene)) if record else None
     steps = stepper(world, step, numbers, realised, kept and kept.keep)
     motion = sampled(world, steps, times, step, numbers, reactions=felt)
     motion = replace(motion, reactions={**motion.reactions, **states(world, times, step)})

@@ -173,9 +173,7 @@ def test_a_start_from_at_is_seen(point: str, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_it_starts_there() -> None:
-    x, y, angle, *_ = solve(scenes.parsed(HELD.replace("POINT", "O"))).trajectory.states["rod"][
-        0
-    ]
+    x, y, angle, *_ = solve(scenes.parsed(HELD.replace("POINT", "O"))).trajectory.states["rod"][0]
     assert (x - 0.3, y + 0.2) == pytest.approx((-0.25 * math.sqrt(3), -0.25), abs=1e-15)
     assert angle == 1.0
 

@@ -29,18 +29,6 @@ SWITCHES: dict[str, Parts] = {
         "friction: {static: 0.5, kinetic: 0.4}}",
         "initial": "block: {x: 0, y: 0, vx: 1}",
     },
-    "spring": {
-        "bodies": "block: {particle: {mass: 1}}",
-        "joints": "rail: {slide: [ground.O, block.center], along: [1, 0]}",
-        "forces": "buffer: {spring: [ground.O, block.center], stiffness: 50, rest_length: 1, "
-        "only: compression}",
-        "initial": "block: {x: 0.5, vx: 0}",
-    },
-    "rope": {
-        "bodies": "block: {particle: {mass: 1}}",
-        "forces": "cord: {rope: [ground.O, block.center], length: 2}",
-        "initial": "block: {x: 0.5, y: 0, vx: 1, vy: 0}",
-    },
 }
 BESIDE: dict[str, Parts] = {
     "contact": {
@@ -90,9 +78,6 @@ def test_alone_it_can_be_told_from_outside(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("other", BESIDE)
 @pytest.mark.parametrize("name", SWITCHES)
 def test_beside_another_it_cannot(name: str, other: str, tmp_path: Path) -> None:
-    if name == other == "rope":  # ropes are caught together
-        assert ways(tmp_path, "mujoco", SWITCHES[name], BESIDE[other]) == {"native", "driver"}
-        return
     assert ways(tmp_path, "mujoco", SWITCHES[name], BESIDE[other]) == {"native"}
 
 

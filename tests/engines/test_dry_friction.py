@@ -1,22 +1,19 @@
-"""Dry friction on a slide: natively with one bound; by our law and by our driver, the textbook's.
-
-Examples 2.3 (a growing force) and 2.4 (drawn by a spring), and the smooth law of the same.
-"""
+"""Dry friction of slides and contacts by our law: what shipped cases do not tell apart."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from given.closed_motions import drawn, growing, sliding_then_rolling, to_and_fro
+from given import scenes
+from given.closed_motions import growing, sliding_then_rolling, to_and_fro
 from given.engine_scenes import (
     BLOCK,
-    DRAWN,
     GROWING,
     RADIUS,
     RESTS,
-    SIX,
     THREE,
     WHEEL,
     G,
@@ -26,36 +23,29 @@ from given.engine_scenes import (
     thrown,
     touching,
 )
-from given.planning import NAMES, TUNED, every, moved, planned, ways
-from scipy.integrate import solve_ivp
+from given.planning import CASES, NAMES, TUNED, begun, every, moved, ways
+from given.scenes import solved
 
-from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Signal, Smooth
+from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Scene, Signal, Smooth
 from textmech.cases.scene.observe import observe
-from textmech.cases.trajectory import OMEGA, VX, Array, X
-from textmech.engines.engine import Realised
-from textmech.engines.law import smooth_friction
-from textmech.engines.mujoco.callbacks import driver as stiction
+from textmech.cases.trajectory import ANGLE, OMEGA, VX, Array, X
+from textmech.engines.engine import Diverged, Realised, Start
+from textmech.engines.law import braking
+from textmech.engines.mujoco.callbacks import friction as of_mujoco
+from textmech.engines.mujoco.callbacks import friction_law
+from textmech.engines.mujoco.callbacks.contact_friction import Touch
+from textmech.reference.solve import solve
 
 STEPS = {"mujoco": 1e-3, "pymunk": 1e-4}  # s: RK4 is of fourth order, position Verlet of second
-EIGHT, TEN = np.linspace(0.0, 8.0, 81), np.linspace(0.0, 10.0, 101)
+EIGHT = np.linspace(0.0, 8.0, 81)
 
 
-@dataclass(frozen=True)
-class Near:
-    """How near a way comes at its engine's step, in m."""
-
-    growing: float
-    drawn: float
-    braking: float
-
-
-NEAR: dict[tuple[str, Realised], Near] = {
+# m, of a block under a growing force, and of one that brakes.
+NEAR: dict[tuple[str, Realised], tuple[float, float]] = {
     # The force is held over a step that slipping begins or ends in: h²/6, and several of them.
-    ("mujoco", "law"): Near(growing=5e-7, drawn=8e-6, braking=8e-6),  # 1.7e-7, 2.7e-6, 2.5e-6
-    # Steps end at the events, which are found to rounding.
-    ("mujoco", "driver"): Near(growing=1e-11, drawn=2e-11, braking=1e-15),  # 3e-12, 6e-12, 1e-16
+    ("mujoco", "law"): (5e-7, 8e-6),  # 1.7e-7, 2.5e-6
     # The law's mean over a step, exact where the force is linear; then Verlet's h².
-    ("pymunk", "law"): Near(growing=5e-9, drawn=4e-8, braking=1e-15),  # 1.7e-9, 1.3e-8, 2e-16
+    ("pymunk", "law"): (5e-9, 1e-15),  # 1.7e-9, 2e-16
 }
 ROWS = [pytest.param(*row, id=".".join(row)) for row in NEAR]
 
@@ -66,24 +56,9 @@ def test_these_are_the_ways(name: str) -> None:
     assert ways(TUNED[name], guided(GROWING), RESTS) == ("native", *ours)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "way"), ROWS)
-def test_block_under_a_growing_force(name: str, way: Realised) -> None:
-    """It slips at t = 6 s."""
-    engine, scene = TUNED[name], guided(GROWING)
-    wanted = ("guide.friction",)
-    run = moved(engine, scene, RESTS, EIGHT, STEPS[name], realised=way, reactions=wanted)
-    assert np.abs(run.states["block"][:, X] - growing(EIGHT)).max() < NEAR[name, way].growing
-    if "guide.friction" in planned(engine, scene, RESTS, way).withheld:
-        assert not run.reactions
-        return
-    friction = run.reactions["guide.friction"] - np.where(EIGHT < 6.0, EIGHT, 3.0)
-    assert np.delete(friction, 60) == pytest.approx(0, abs=1e-12)  # at 6 s it falls from 6 to 3 N
-
-
 # A force held over a step that begins to slip inside it has the right impulse, and 6 − 3 N for a
-# part s of it: s (1 − s)/2 of 3 h² m at most, whatever comes after. The driver's step ends there.
-INSIDE = {"law": 3 / 8, "driver": 0.0}
+# part s of it: s (1 − s)/2 of 3 h² m at most, whatever comes after.
+INSIDE = 3 / 8
 
 
 @pytest.mark.slow
@@ -92,7 +67,7 @@ INSIDE = {"law": 3 / 8, "driver": 0.0}
 def test_it_slips_inside_a_step(name: str, way: Realised, b: float) -> None:
     """With b = 1 N/s it slips where a step ends, and no formula for a part of one is asked."""
     x = _slips_inside(name, way, b)
-    bound = NEAR[name, way].growing + INSIDE[way] * STEPS[name] ** 2
+    bound = NEAR[name, way][0] + INSIDE * STEPS[name] ** 2
     assert np.abs(x - growing(EIGHT, b)).max() < bound
 
 
@@ -105,8 +80,8 @@ def test_a_step_that_holds_to_its_end_is_seen(monkeypatch: pytest.MonkeyPatch) -
         limit = slide.friction.static.forward
         return slide.brakes(slide.sense, 0.0) if slide.sense * now >= limit else abs(now + soon) / 2
 
-    monkeypatch.setattr(stiction, "_breaking_loose", holds)
-    bound = NEAR["mujoco", "law"].growing
+    monkeypatch.setattr(friction_law, "_breaking_loose", holds)
+    bound = NEAR["mujoco", "law"][0]
     assert np.abs(_slips_inside("mujoco", "law", 1.0) - growing(EIGHT)).max() < bound
     for b in (1.0007, 0.99):
         assert np.abs(_slips_inside("mujoco", "law", b) - growing(EIGHT, b)).max() > 1e-4
@@ -119,14 +94,6 @@ def _slips_inside(name: str, way: Realised, b: float) -> Array:
     return run.states["block"][:, X]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "way"), ROWS)
-def test_block_drawn_by_a_spring(name: str, way: Realised) -> None:
-    """It sticks, slips from 1.5 s on, is at rest from 4.790543662 s, and slips again."""
-    run = moved(TUNED[name], guided(DRAWN), RESTS, TEN, STEPS[name], realised=way)
-    assert np.abs(run.states["block"][:, X] - drawn(TEN)).max() < NEAR[name, way].drawn
-
-
 @pytest.mark.parametrize(("name", "way"), ROWS)
 @pytest.mark.parametrize(("sign", "force"), [(1, 2.0), (-1, 5.0)], ids=["forward", "backward"])
 def test_friction_to_and_fro(sign: int, force: float, name: str, way: Realised) -> None:
@@ -134,14 +101,12 @@ def test_friction_to_and_fro(sign: int, force: float, name: str, way: Realised) 
     bounds, times = Bounds(2.0, 5.0), np.linspace(0.0, 1.0, 21)
     scene, start = guided(None, bounds, bounds), thrown(sign * 1.0)
     run = moved(TUNED[name], scene, start, times, 1e-3, realised=way)
-    assert abs(run.states["block"][-1, X] - sign / (2 * force)) < NEAR[name, way].braking
+    assert abs(run.states["block"][-1, X] - sign / (2 * force)) < NEAR[name, way][1]
 
 
-# m, in 4 s at h. Over the steps with a reversal the mean of two bounds is right to h²; the driver
-# cuts there.
+# m, in 4 s at h. Over the steps with a reversal the mean of two bounds is right to h².
 REVERSED: dict[tuple[str, Realised], float] = {
     ("mujoco", "law"): 2.2e-5,  # 7.3e-6
-    ("mujoco", "driver"): 3e-11,  # 8.8e-12
     ("pymunk", "law"): 5e-7,  # 1.7e-7
 }
 
@@ -158,78 +123,7 @@ def test_a_block_turns_back_without_a_rest(name: str, way: Realised) -> None:
     assert error < REVERSED[name, way]
 
 
-# m. MuJoCo's own is regularised: it creeps while it sticks, and brakes a step too long when it
-# stops; measured 9.4e-7.
-ONE = {"mujoco": 3e-6, "pymunk": 1e-15}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-def test_the_engine_alone_has_one_bound(name: str) -> None:
-    """It breaks loose at 3 N; where that is the only bound, it does as our law."""
-    step = 1e-3
-    loose = moved(TUNED[name], guided(GROWING), RESTS, EIGHT, step).states["block"]
-    assert loose[50, X] < -1.0  # at 5 s
-    x = moved(TUNED[name], guided(DRAWN), RESTS, TEN, step).states["block"][:, X]
-    assert np.abs(x - drawn(TEN)).max() > 1.0
-    native, law = (
-        moved(TUNED[name], guided(DRAWN, THREE), RESTS, TEN, step, realised=way).states["block"]
-        for way in ("native", "law")
-    )
-    assert np.abs(native[:, X] - law[:, X]).max() < ONE[name]
-
-
-SMOOTH = Smooth(5e-4, 1e5)
-# m over 4 s while it slips, and over 6 s: stopping at 4.79 s is a corner of 5e-4 m/s, within which
-# the implicit midpoint's error grows.
-SMOOTHLY = {"mujoco": (1e-9, 1.2e-8), "pymunk": (2e-8, 4e-5)}  # measured 3e-10, 4e-9; 7e-9, 1.3e-5
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-def test_the_smooth_law_slips_and_creeps(name: str) -> None:
-    scene, times = guided(DRAWN, smooth=SMOOTH), np.linspace(0.0, 6.0, 61)
-    friction = DryFriction(SIX, THREE, SMOOTH)
-    assert ways(TUNED[name], scene, RESTS) == ("native", "law")
-
-    def rate(t: float, s: Array) -> list[float]:
-        applied = 4 * t - 2 * s[0]
-        return [s[1], applied + smooth_friction(friction, s[1], applied, smooth=SMOOTH)]
-
-    exact = solve_ivp(rate, (0, 6), [0.0, 0.0], "Radau", times, rtol=1e-9, atol=1e-12).y[0]
-    run = moved(TUNED[name], scene, RESTS, times, 1e-4, realised="law", record=True)
-    error = np.abs(run.states["block"][:, X] - exact)
-    assert error[:41].max() < SMOOTHLY[name][0]
-    assert error.max() < SMOOTHLY[name][1]
-    record = every(run)
-    stuck = (record.times > 5.0) & (record.times < 6.0)
-    slip = observe(scene, record, "guide.slip")[stuck]
-    assert slip.min() >= 0.8 * SMOOTH.band
-    assert slip.max() <= SMOOTH.band
-
-
 # Contacts: both engines know one coefficient, and both adapters have a law for two.
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("static", [0.6, 0.42])  # tan 25° = 0.466: it stays, it comes back
-def test_a_block_thrown_up_by_the_law_with_two_bounds(static: float, name: str) -> None:
-    beta, step, times = math.radians(25), 1e-4, np.linspace(0.0, 2.0, 21)
-    scene = incline(BLOCK, touching("block", 0.4, static=static), slope=beta)
-    assert ways(TUNED[name], scene, RESTS)[:2] == ("native", "law")
-    up, down = (G * (math.sin(beta) + sign * 0.4 * math.cos(beta)) for sign in (1, -1))
-    stop, rest = 2.0 / up, np.maximum(times - 2.0 / up, 0.0)
-    before = np.minimum(times, stop)
-    x = -2.0 * before + up * before**2 / 2 + (static < 0.466) * down * rest**2 / 2
-
-    def error(way: Realised) -> float:
-        run = moved(TUNED[name], scene, thrown(-2.0), times, step, realised=way)
-        return np.abs(run.states["block"][:, X] - x).max()
-
-    law, native = error("law"), error("native")
-    assert law < 0.4 * step**2 * up  # it stops within a step: h²/8 of the deceleration; 0.124
-    assert native > 100 * law  # one bound: slides back, or turns back a step late
 
 
 # m of the way, and m/s of the slip that is left.
@@ -250,3 +144,264 @@ def test_a_disk_slides_then_rolls_by_the_law_with_two_bounds(name: str) -> None:
     assert error < ROLLED[name]
     assert abs(rows[-1, VX] + RADIUS * rows[-1, OMEGA]) < ROLLED[name]
     assert every(run).times[np.argmax(slip < 1e-3)] == pytest.approx(rolls, abs=2e-4)
+
+
+# Friction that falls with the speed (2.90), in a slide and about a pin, in both engines.
+
+
+STEP = 1e-3  # s
+WAYS: list[tuple[str, Realised]] = [("mujoco", "law"), ("pymunk", "law")]
+# m at this step. A law holds its force over a step, at the speed in the middle: of second order.
+# Measured 2.2e-6 and 1.6e-6.
+DRAWN = {("mujoco", "law"): 6e-6, ("pymunk", "law"): 5e-6}
+
+
+def far(engine: str, way: Realised, name: str = "stribeck_drive") -> float:
+    """m from the certified motion."""
+    scene, start = begun(name)
+    run = moved(TUNED[engine], scene, start, CASES[name].times, STEP, realised=way)
+    exact = scenes.solved(name).trajectory.states["block"]
+    return float(np.max(np.abs(run.states["block"] - exact)[:, X]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("engine", "way"), WAYS)
+def test_it_sticks_and_slips(engine: str, way: Realised) -> None:
+    assert far(engine, way) < DRAWN[engine, way]
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("falling friction by the speed of the step's start")
+def test_mutant_speed_of_the_step_s_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    def first(self: Any, sense: int, speed: float) -> float:
+        return braking(self.friction, sense, self.speed)
+
+    monkeypatch.setattr(of_mujoco.Slide, "brakes", first)
+    assert far("mujoco", "law") > 10 * DRAWN["mujoco", "law"]
+
+
+ROTOR = """\
+scene:
+  points: {O: [0, 0]}
+  bodies: {disk: {disk: {mass: 2.0, radius: 0.5}}}
+  joints:
+    axle:
+      pin: [ground.O, disk.center]
+      dry_friction: {static: 0.8, kinetic: 0.4, stribeck: {speed: 1.5 rad/s}}
+initial: {disk: {angle: 0, omega: 4.0}}
+allow: {disk.angle: 1.0e-2}
+"""
+
+
+def spun_down(times: Array) -> Array:
+    """(N,) ω: e^{ω/ω_s} = (e^{ω₀/ω_s} + D/M) e^{−M t/(J ω_s)} − D/M, D = M_s − M, until it is 1."""
+    J, rest, falls, of = 0.25, 0.4, 0.4, 1.5
+    grown = (np.exp(4.0 / of) + falls / rest) * np.exp(-rest * times / (J * of)) - falls / rest
+    return of * np.log(np.maximum(grown, 1.0))
+
+
+# rad/s: of a rotor that nothing else turns the mean over a step is right to h²; 2.9e-7.
+SPUN = {("mujoco", "law"): 1e-6, ("pymunk", "law"): 1e-6}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("engine", "way"), WAYS)
+def test_a_rotor_spins_down(engine: str, way: Realised, tmp_path: Path) -> None:
+    case = scenes.typed(tmp_path, ROTOR, tail=scenes.tail(3.0, 31))
+    solution = solve(case)
+    states = solution.trajectory.states["disk"]
+    exact = spun_down(case.times)
+    assert exact[0] == 4.0
+    assert exact[-1] == 0.0
+    np.testing.assert_allclose(states[:, ANGLE + 3], exact, rtol=0, atol=1e-12)
+    start: Start = {"disk": tuple(states[0].tolist())}  # type: ignore[dict-item]
+    run = moved(TUNED[engine], case.scene, start, case.times, STEP, realised=way)
+    assert np.max(np.abs(run.states["disk"][:, ANGLE + 3] - exact)) < SPUN[engine, way]
+
+
+def test_braking_falls_towards_the_kinetic_friction() -> None:
+    law = CASES["stribeck_drive"].scene.joints["guide"].dry_friction
+    assert isinstance(law, DryFriction)
+    forces = [braking(law, 1, speed) for speed in (0.0, 0.5, 50.0)]
+    assert forces == pytest.approx([6.0, 3.0 + 3.0 / np.e, 3.0])
+
+
+# Our law of dry friction in MuJoCo: a block that stops is not braked past its stop.
+
+
+H, BRAKES = 1e-3, 3.0  # s; N on 1 kg
+TIMES = np.linspace(0.0, 40 * H, 41)
+
+
+def speeds(part: float) -> Array:
+    """At every step, of a block that would stop at that part of the eleventh."""
+    v = BRAKES * H * (10 + part)
+    bounds = Bounds(BRAKES, BRAKES)
+    run = moved(TUNED["mujoco"], guided(None, bounds, bounds), thrown(v), TIMES, H, realised="law")
+    return run.states["block"][:, VX]
+
+
+@pytest.mark.mutant("the same force all step long up to half a step before a stop")
+def test_what_stops_within_a_step_rests_at_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The speed is a multiple of what a step takes but for the last part, and then rounding's."""
+    for part in (0.6, 0.9):
+        found = speeds(part)
+        assert found[:11] == pytest.approx(BRAKES * H * (10 + part - np.arange(11)), rel=1e-9)
+        assert np.max(np.abs(found[11:])) < 1e-9 * found[0]  # 2e-14
+    monkeypatch.setattr(friction_law, "_FAR", 0.5)
+    assert speeds(0.6)[11] < -0.3 * BRAKES * H
+
+
+# The smooth law of dry friction (2.95) holds all that acts along a slide, gravity too.
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_block_stays_on_a_slope(name: str) -> None:
+    """Its weight is 1.70 N along a slide at 10°: less than 3 N, so that friction cancels it.
+
+    If gravity were no part of what friction holds, it would creep at the band's edge: 2.5e-4 m.
+    """
+    slope, times = math.radians(10), np.linspace(0.0, 0.5, 6)
+    scene = guided(None, THREE, Bounds(2.0, 2.0), Smooth(5e-4, 1e5))
+    guide = scene.joints["guide"]
+    down = replace(guide.shifts[0], axis=(math.cos(slope), -math.sin(slope)))
+    guide = replace(guide, freedoms=(down,))
+    scene = replace(scene, joints={"guide": guide})
+    run = moved(TUNED[name], scene, RESTS, times, 5e-4, realised="law")
+    assert np.abs(run.states["block"][:, :ANGLE]).max() < 1e-12
+
+
+# Two coefficients of friction on a floor that carries less and less, or more and more.
+
+
+STATIC, KINETIC, F, P = 0.6, 0.4, 6.0, 5.003  # N, and N/s up: it slips inside a step
+AT = Anchor("block", "center")
+MUJOCO = TUNED["mujoco"]
+
+
+def lifted(way: int) -> Scene:
+    scene = incline(BLOCK, touching("block", KINETIC, static=STATIC))
+    pushes = (
+        Push("along", AT, Signal("constant", (way * F, 0.0))),
+        Push("up", AT, Signal("ramp", (0.0, P))),
+    )
+    forces = {push.name: push for push in pushes}
+    return Scene(scene.gravity, {}, scene.bodies, {}, scene.contacts, forces)
+
+
+def slid(times: Array) -> Array:
+    """μ_s (m g − p t₀) = F; then m ẍ = F − μ_k (m g − p t), from rest at t₀."""
+    m = BLOCK.mass
+    begins = (m * G - F / STATIC) / P
+    tau = np.maximum(times - begins, 0.0)
+    first = F - KINETIC * F / STATIC
+    return (first * tau**2 / 2 + KINETIC * P * tau**3 / 6) / m
+
+
+# m, of second order: measured 1.7e-7 and 2.8e-7. With the bound of now it slips a step late: 5e-4
+# and 3e-4; braked by the normal force of the step's start it is 8e-5 off in MuJoCo.
+SLID = {"mujoco": 5e-7, "pymunk": 8e-7}
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_block_slips_when_its_bound_has_fallen(name: str, way: int) -> None:
+    times, step = np.linspace(0.0, 1.0, 11), 1e-3
+    run = moved(TUNED[name], lifted(way), thrown(0.0), times, step, realised="law")
+    error = np.abs(way * run.states["block"][:, X] - slid(times)).max()
+    assert error < SLID[name]
+
+
+DOWN, ALONG = 3.007, 9.0  # N/s
+
+
+def pressed(way: int) -> Scene:
+    """Drawn along harder and harder, and pressed down, too."""
+    scene = incline(BLOCK, touching("block", KINETIC, static=STATIC))
+    push = Push("rope", AT, Signal("ramp", (way * ALONG, -DOWN)))
+    return Scene(scene.gravity, {}, scene.bodies, {}, scene.contacts, {"rope": push})
+
+
+def drawn(times: Array) -> Array:
+    """μ_s (m g + q t₀) = b t₀; then m ẍ = b t − μ_k (m g + q t), from rest at t₀."""
+    m = BLOCK.mass
+    begins = STATIC * m * G / (ALONG - STATIC * DOWN)
+    tau = np.maximum(times - begins, 0.0)
+    first = (STATIC - KINETIC) * (m * G + DOWN * begins)
+    return (first * tau**2 / 2 + (ALONG - KINETIC * DOWN) * tau**3 / 6) / m
+
+
+# m, of second order: measured 3.3e-8 and 2.8e-7. Where a bound that grows is taken to fall, it
+# slips a step too early: 5e-4.
+PRESSED = {"mujoco": 1e-7, "pymunk": 8e-7}
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_block_slips_when_its_bound_has_been_overtaken(name: str, way: int) -> None:
+    times, step = np.linspace(0.0, 1.6, 17), 1e-3
+    run = moved(TUNED[name], pressed(way), thrown(0.0), times, step, realised="law")
+    error = np.abs(way * run.states["block"][:, X] - drawn(times)).max()
+    assert error < PRESSED[name]
+
+
+PULLED = (2.0, 15.0)  # N on a kilogram: up for 0.2 s, which is more than it weighs
+
+
+def lifted_off(until: float) -> float:
+    """m/s that a block is off which a pull has lifted off, sliding, from 0.1 s on: nothing rubs.
+
+    It comes down at 0.586 s with 1.765 m/s, of which friction's blow takes 0.3, and stops.
+    """
+    pull = Signal("pulse", PULLED, times=(0.1, 0.3))
+    floor = incline(replace(BLOCK, mass=1.0), touching("block", 0.3, static=0.6))
+    scene = replace(floor, forces={"pull": Push("pull", Anchor("block", "center"), pull)})
+    times = np.linspace(0.0, until, round(until / 0.05) + 1)
+    run = moved(MUJOCO, scene, thrown(0.5), times, 1e-3, realised="law")
+    rubbed, pulled = np.minimum(times, 0.1), np.clip(times - 0.1, 0.0, 0.2)
+    exact = 0.5 - 0.3 * G * rubbed + PULLED[0] * pulled
+    rise = PULLED[1] - G
+    lands = 0.3 + (rise * 0.2 + math.sqrt((rise * 0.2) ** 2 + 2 * G * rise * 0.02)) / G
+    blow = 0.3 * (G * (lands - 0.3) - rise * 0.2)
+    exact = np.where(times < lands, exact, np.maximum(exact - blow - 0.3 * G * (times - lands), 0))
+    return float(np.abs(run.states["block"][:, VX] - exact).max())
+
+
+# m/s. The law rubs as in the step before: one step too long, 0.3 g h = 2.942e-3, as measured.
+LIFTS = 3e-3
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("law of a contact that rubs where nothing touches")
+def test_what_is_lifted_off_is_not_rubbed(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert lifted_off(0.5) < LIFTS
+    with pytest.raises(Diverged, match="comes down again"):
+        lifted_off(1.0)
+    bounds = Bounds(0.3 * G, 0.3 * G)
+    monkeypatch.setattr(Touch, "friction", property(lambda self: DryFriction(bounds, bounds)))
+    assert lifted_off(0.5) > 0.1
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("law of a contact that goes on through a blow")
+def test_a_blow_that_no_law_follows_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Touch, "look", lambda self: None)
+    assert lifted_off(0.65) > 0.1
+
+
+@pytest.mark.mutant("kinetic friction at rest")
+def test_kinetic_friction_at_rest_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    def kinetic(self: Touch) -> DryFriction:
+        bounds = Bounds(*(2 * (self.contact.kinetic * self.normal,)))
+        return DryFriction(bounds, bounds)
+
+    case = CASES["friction_cone.forward"]
+    exact = solved(case.name).trajectory.states["block"][:, X]
+
+    def off() -> float:
+        run = moved(MUJOCO, *begun(case.name), case.times, 1e-3, realised="law")
+        return float(np.abs(run.states["block"][:, X] - exact).max())
+
+    assert off() < 1e-6
+    monkeypatch.setattr(Touch, "friction", property(kinetic))
+    assert off() > 1e-2

@@ -5,25 +5,31 @@
 
 import subprocess
 import sys
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
-from given.planning import SETTINGS, TUNED, begun, moved, planned, words
-from given.scenes import SHIPPED, solved
+from given.planning import SETTINGS, TUNED, begun, every, moved, planned, words
+from given.scenes import SHIPPED, solved, typed
 
-from textmech.cases.scene import Anchor, Contact
+from textmech.cases.scene import Anchor, Contact, Scene
 from textmech.cases.trajectory import ANGLE, OMEGA, X
-from textmech.engines.engine import Engine, Refusal
+from textmech.engines import pymunk
+from textmech.engines.engine import Diverged, Engine, Refusal, Start
 from textmech.engines.foot_contact import Stride, stride
 from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.adapter.refuse import unbuildable
 from textmech.engines.mujoco.callbacks import foot_contact as feet
 from textmech.engines.mujoco.read.poses import poses
 from textmech.engines.mujoco.read.record import Record
+from textmech.engines.pymunk.callbacks import cut
+from textmech.engines.pymunk.callbacks.foot import Foot
 from textmech.engines.pymunk.stepping import run as steps
 from textmech.reference.systems.walkers.compass_walker import CompassWalker
+from textmech.reports.compare.events.times import engine_events, reference_events
 
 CASE = SHIPPED["compass_walker"]
 STEPS = (1e-3, 2.5e-4)  # s
@@ -118,6 +124,142 @@ def test_its_impulse_is_that_of_the_reference(monkeypatch: pytest.MonkeyPatch) -
     for k, (angles, before, after) in enumerate(seen):
         _, _, v = walker.struck(k % 2, np.array([0.0, *angles]), np.array([0.0, *before]))
         assert after == pytest.approx(v[1:], abs=1e-6)  # the foot that stood gives way by 1e-7
+
+
+LATE = lambda self, *given: given[-1]  # noqa: E731
+EARLY = lambda self, longest: np.nextafter(longest, 0.0) * 1e-3  # noqa: E731
+MISTAKES: Mapping[str, tuple[str, object, str, Callable[..., object]]] = {
+    "cut at the end of the step in mujoco": ("mujoco", feet.Feet, "_until_down", LATE),
+    "cut at the end of the step": ("pymunk", Foot, "after", LATE),
+    "never down where it is cut": ("pymunk", Foot, "after", EARLY),
+    "no impact": ("pymunk", cut.Lengths, "impact", lambda self: None),
+    "impulses of another length": ("pymunk", cut, "forget", lambda space: None),
+    "carried along by its curve": ("pymunk", Foot, "_carry", lambda self, slip: None),
+    "seen where its body was": ("pymunk", cut.Strikes, "_moved", lambda self: None),
+    "lifted by its curve": ("pymunk", Foot, "_depth", lambda self, length: 0.0),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a foot comes down: {mistake}")
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_seen(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    engine, owner, name, planted = MISTAKES[mistake]
+    monkeypatch.setattr(owner, name, planted)
+    try:
+        found = max(off(TUNED[engine], 1e-3))
+    except Diverged:
+        return
+    assert found > 2.5e-4  # 1.5e-4 without; 4.0e-4 where its curve carries it along, else 5e-3
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a tip's path along its curve, (ω h)² l/2, taken for a leap")
+def test_a_foot_that_leaves_by_its_curve_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 5 ms it is 5e-6 m off the floor at the end of a step, and would come down in each."""
+    look = Foot.look
+
+    def level(self: Foot, step: float) -> None:
+        self._far, far = 0.0, self._far
+        look(self, step)
+        self._far = far
+
+    assert max(off(TUNED["pymunk"], 5e-3)) < 6e-4  # measured 2.1e-4
+    monkeypatch.setattr(Foot, "look", level)
+    assert max(off(TUNED["pymunk"], 5e-3)) > 0.1
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a step that is cut has a middle, half a step back along what follows")
+def test_what_is_cut_is_where_the_body_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    event, exact = CASE.events["right_comes_down"], solved(CASE.name).trajectory
+    wanted = reference_events(CASE.scene, every(exact), event)
+
+    def late() -> float:
+        (scene, start), engine = begun(CASE.name), TUNED["pymunk"]
+        run = moved(engine, scene, start, CASE.times, 2e-3, realised="driver", record=True)
+        return float(np.abs(engine_events(scene, every(run), event) - wanted).max())
+
+    assert late() < 1.5e-4  # s; measured 7.6e-5
+    monkeypatch.setattr(pymunk, "cuts", lambda scene: False)
+    assert late() > 3e-4  # 4.3e-4
+
+
+def twins(scene: Scene, start: Start) -> tuple[Scene, Start]:
+    """The walker and another one, each by itself, that is 0.1 % slower."""
+
+    def other(at: Anchor) -> Anchor:
+        return Anchor(f"{at.body}2", at.point)
+
+    bodies = {f"{n}2": replace(body, name=f"{n}2") for n, body in scene.bodies.items()}
+    joints = {
+        f"{n}2": replace(joint, name=f"{n}2", a=other(joint.a), b=other(joint.b))
+        for n, joint in scene.joints.items()
+    }
+    contacts = {
+        f"{n}2": replace(foot, name=f"{n}2", at=other(foot.at), ahead_of=other(foot.ahead_of))
+        for n, foot in scene.contacts.items()
+        if foot.ahead_of
+    }
+    both = replace(
+        scene,
+        bodies={**scene.bodies, **bodies},
+        joints={**scene.joints, **joints},
+        contacts={**scene.contacts, **contacts},
+    )
+    slower = {f"{n}2": (*row[:3], *(0.999 * v for v in row[3:])) for n, row in start.items()}
+    return both, {**start, **slower}  # type: ignore[dict-item]
+
+
+def parted(engine: Engine) -> float:
+    """rad: how far walkers that strike in one step are from how they walk alone."""
+    scene, start = begun(CASE.name)
+    both, begins = twins(scene, start)
+    slower = {name: begins[f"{name}2"] for name in start}
+    times, step = CASE.times[:16], 1e-2
+    run = moved(engine, both, begins, times, step, realised="driver").states
+    found = []
+    for suffix, begin in (("", start), ("2", slower)):
+        alone = moved(engine, scene, begin, times, step, realised="driver").states
+        found += [np.abs(run[f"{leg}{suffix}"] - alone[leg])[:, ANGLE].max() for leg in start]
+    return float(max(found))
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("of two feet that strike in one step the later one first, in {name}")
+@pytest.mark.parametrize("name", TUNED)
+def test_the_later_of_two_first_is_seen(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert parted(TUNED[name]) < PARTED[name]
+    monkeypatch.setattr(feet if name == "mujoco" else cut, "min", max, raising=False)
+    assert parted(TUNED[name]) > 10 * PARTED[name]
+
+
+PARTED = {"mujoco": 1e-5, "pymunk": 6e-5}  # measured 2.0e-6 and 1.7e-5: parts are other steps
+
+# What stands in a walker's scene, and forbids to cut its steps.
+BESIDE = {
+    "hand: {push: hip.center, sine: {amplitude: [0, 3], angular_frequency: 30}}": "",
+    "hand: {push: hip.center, constant: [0, 3]}": "",
+    "air: {drag: hip.center, coefficient: 0.1, exponent: 2}": "",
+    "coil: {spring: [ground.O, hip.center], stiffness: 30, rest_length: 0.1}": (
+        "points: {O: {at: [0, 9], moves: {sine: {amplitude: [0.1, 0], angular_frequency: 9}}}}"
+    ),
+    "cord: {rope: [ground.O, hip.center], length: 9}": "points: {O: [0, 1]}",
+}
+
+
+@pytest.mark.mutant("a step that is cut beside {force}")
+@pytest.mark.parametrize("force", BESIDE)
+def test_what_a_step_of_any_length_does_not_bear_is_not_cut(force: str, tmp_path: Path) -> None:
+    """Planted by hand: each of the conditions of `cuts` left out."""
+    text = Path(CASE.source.file).read_text(encoding="utf-8")
+    scene = text[text.index("parameters:") : text.index("duration:")]
+    assert cut.cuts(typed(tmp_path, scene + ALLOWED).scene)
+    more = f"scene:\n  {BESIDE[force]}\n  forces: {{{force}}}\n"
+    assert not cut.cuts(typed(tmp_path, scene.replace("scene:\n", more) + ALLOWED).scene)
+
+
+ALLOWED = "allow: {left.angle: 1.0e-2}\n"
 
 
 def test_what_holds_otherwise_takes_part_in_a_strike() -> None:

@@ -1,14 +1,11 @@
-"""Each engine's tuned motion and forces meet closed forms, or the reference, as near as is written.
-
-A bound is two to three times what was measured, beside which it stands with its reason.
-"""
+"""Motions that no shipped case makes: other turns, masses far from one, a floor from the start."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
-from given.closed_motions import pendulum
 from given.engine_scenes import (
     BOX,
     ROD,
@@ -19,113 +16,26 @@ from given.engine_scenes import (
     machine,
     on_a_swing,
     pin,
+    shaken,
 )
-from given.planning import NAMES, TUNED, begun, moved, planned
-from given.scenes import SHIPPED, solved
-from given.swings import energy_drift, swing_error
+from given.landings import HINGED
+from given.planning import NAMES, SETTINGS, TUNED, begun, moved, planned, words
+from given.scenes import SHIPPED, tail, typed
 
 from textmech.cases.scene import Anchor, Push, Signal
-from textmech.cases.scene.observe import observe
 from textmech.cases.scene.shape import bar
 from textmech.cases.trajectory import ANGLE, Array, X
-from textmech.engines.engine import Start
+from textmech.engines.engine import Engine, Start
+from textmech.reference.solve import solve
+from textmech.reports.compare.trial.start import first
 
-
-@dataclass(frozen=True)
-class Near:
-    """How near an engine's tuned setting comes; its order in h is that of its plan."""
-
-    pendulum: tuple[float, float]  # rad over 10 s and N, at 1e-4 s
-    rolling: tuple[float, float]  # m and N: of places and forces, at 1e-3 s
-    towed: tuple[float, float, float]  # rad, m and N, at 1e-3 s
-    slide: tuple[float, float]  # rad and N, at 1e-3 s
-    weld: tuple[float, float]
-    energy: float  # J, of hanging chains at 2e-4 s
-    carried: float  # N, at 1e-4 s
-    alike: float  # rounding, of masses a billion times larger and smaller
-
-
-NEAR = {
-    # Fourth order; what is left is rounding over 1e5 steps, the floor's depth (1 - d of it is
-    # missing while a disk settles: 7e-7 N at the start), and the reference's own 1e-11.
-    "mujoco": Near(
-        pendulum=(2e-12, 4e-11),  # measured 5.7e-13, 1.1e-11
-        rolling=(3e-8, 2e-6),  # 1.2e-8, 7.3e-7
-        towed=(8e-11, 8e-12, 4e-10),  # 3.0e-11, 2.4e-12, 1.4e-10
-        slide=(1e-10, 5e-9),  # 3.5e-11, 1.7e-9
-        weld=(1e-11, 4e-10),  # 4.6e-12, 1.3e-10
-        energy=6e-10,  # 2.3e-10
-        carried=6e-9,  # 2.4e-9
-        alike=3e-15,  # 8.9e-16
-    ),
-    # Second order.
-    "pymunk": Near(
-        pendulum=(1.5e-5, 2e-4),  # measured 5.7e-6, 1.1e-4
-        rolling=(3e-14, 5e-10),  # a disk that rolls has no error: 9e-15 (slip 0), 1.8e-10
-        towed=(5e-6, 1.2e-6, 5e-4),  # 2.2e-6, 4.5e-7, 2.0e-4
-        slide=(1.2e-5, 5e-3),  # 4.1e-6, 1.9e-3
-        weld=(4e-5, 9e-3),  # 1.4e-5, 3.1e-3
-        energy=1e-4,  # 3.9e-5
-        carried=1e-4,  # 3.3e-5 at the start, which is extrapolated
-        alike=5e-13,  # 1.4e-13
-    ),
-}
+CARRIED = {"mujoco": 6e-9, "pymunk": 1e-4}  # N: 2.4e-9; 3.3e-5 at the start, extrapolated
+ALIKE = {"mujoco": 3e-15, "pymunk": 5e-13}  # rounding: 8.9e-16, 1.4e-13
 
 
 def worst(a: Array, b: Array) -> float:
     """The largest difference."""
     return float(np.abs(a - b).max())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-def test_pendulum(name: str) -> None:
-    scene, start = begun("bar_pendulum")
-    times, wanted = SHIPPED["bar_pendulum"].times, ("hinge.force", "hinge.fx")
-    run = moved(TUNED[name], scene, start, times, 1e-4, reactions=wanted)
-    angle, force = pendulum(times)
-    assert worst(run.states["bar"][:, ANGLE], angle) < NEAR[name].pendulum[0]
-    assert worst(run.reactions["hinge.force"], force) < NEAR[name].pendulum[1]
-    withheld = planned(TUNED[name], scene, start).withheld
-    assert set(run.reactions) == set(wanted) - set(withheld)
-
-
-PULLS = {"pushed": (2.5, 0.0), "downhill": (0.0, math.radians(20))}  # N and rad
-
-
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("variant", PULLS)
-def test_a_wheel_rolls(variant: str, name: str) -> None:
-    scene, start = begun(f"rolling_wheel.{variant}")
-    times, (push, beta) = SHIPPED[f"rolling_wheel.{variant}"].times, PULLS[variant]
-    run = moved(TUNED[name], scene, start, times, 1e-3, reactions=("touch.normal", "touch.tangent"))
-    pull, (place, force) = 1.3 * G * math.sin(beta) + push, NEAR[name].rolling
-    x = 0.4 * times + pull / (1.5 * 1.3) / 2 * times**2
-    assert worst(run.states["wheel"][:, X], x) < place
-    assert np.abs(observe(scene, run, "touch.slip")).max() < place
-    # the floor's force on the wheel: upwards, and against a pull to the right
-    assert run.reactions["touch.normal"] == pytest.approx(1.3 * G * math.cos(beta), abs=force)
-    assert run.reactions["touch.tangent"] == pytest.approx(-pull / 3, abs=force)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-def test_a_driven_point_pushes_and_forces_in_time(name: str) -> None:
-    exact, (scene, start) = solved("towed_pendulum").trajectory, begun("towed_pendulum")
-    run = moved(TUNED[name], scene, start, exact.times, 1e-3, reactions=("pivot.force",))
-    angle, place, force = NEAR[name].towed
-    assert worst(run.states["bob"][:, ANGLE], exact.states["bob"][:, ANGLE]) < angle
-    assert worst(run.states["cart"][:, X], exact.states["cart"][:, X]) < place
-    assert worst(run.reactions["pivot.force"], observe(scene, exact, "pivot.force")) < force
-
-
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("kind", ["slide", "weld"])
-def test_slide_and_weld_on_a_turning_body(kind: str, name: str) -> None:
-    angle, force = swing_error(TUNED[name], kind)
-    near = NEAR[name].slide if kind == "slide" else NEAR[name].weld
-    assert angle < near[0]
-    assert force < near[1]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -153,13 +63,6 @@ def test_angles_stay_on_their_turn(name: str) -> None:
     assert found.states["rod"][0, ANGLE] == pytest.approx(8.0, abs=1e-14)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("n", [5, 12])
-def test_a_chain_keeps_its_energy(n: int, name: str) -> None:
-    assert energy_drift(TUNED[name], n) < NEAR[name].energy
-
-
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("mass", [1e-9, 1e9])
 def test_masses_far_from_one_fall_alike(mass: float, name: str) -> None:
@@ -170,7 +73,7 @@ def test_masses_far_from_one_fall_alike(mass: float, name: str) -> None:
             "rod"
         ]
 
-    assert worst(fall(mass), fall(1.0)) < NEAR[name].alike
+    assert worst(fall(mass), fall(1.0)) < ALIKE[name]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -181,7 +84,7 @@ def test_the_floor_carries_a_disk_from_the_start(name: str) -> None:
     times = np.linspace(0, 0.01, 3)
     found = moved(TUNED[name], scene, launched(0.0), times, 1e-4, reactions=("touch.normal",))
     wanted = 1.3 * G + 30 * np.cos(5.0 * times)
-    assert worst(found.reactions["touch.normal"], wanted) < NEAR[name].carried
+    assert worst(found.reactions["touch.normal"], wanted) < CARRIED[name]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -196,3 +99,55 @@ def test_a_size_is_that_of_the_components(name: str) -> None:
     else:
         assert set(found) == {"elbow.force"}
         assert set(planned(TUNED[name], scene, start).withheld) >= {"elbow.fx", "elbow.fy"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "near"), [("pymunk", 8e-4), ("mujoco", 1.3e-3)])
+def test_a_pin_and_the_floor_do_not_undo_each_other(name: str, near: float, tmp_path: Path) -> None:
+    """What a joint holds down is lifted slowly: at once it would shake by 0.02 rad.
+
+    Measured 2.7e-4 and 4.3e-4 rad.
+    """
+    case = typed(tmp_path, HINGED, tail=tail(0.5, 26))
+    exact = solve(case).trajectory
+    run = moved(TUNED[name], case.scene, first(exact), case.times, 1e-4)
+    assert worst(run.states["rod"][:, ANGLE], exact.states["rod"][:, ANGLE]) < near
+
+
+# The order that a plan declares is the one at which differences shrink, and its limit is right.
+
+
+STEPS = (2e-3, 1e-3, 5e-4)
+SETTLED = 0.05  # of an order: these steps are that far into the expansion; measured 0.036
+ROUGH = {"mujoco.tuned": (8e-3, 4e-3, 2e-3)}  # where RK4 is above rounding
+
+
+def order(run: Callable[[float], Array], steps: tuple[float, float, float]) -> float:
+    """log2 of the ratio of neighbouring differences, in max-norm."""
+    a, b, c = (run(step) for step in steps)
+    return math.log2(np.max(np.abs(a - b)) / np.max(np.abs(b - c)))
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+def test_a_pendulum_shows_the_declared_order(engine: Engine) -> None:
+    scene, start = begun("bar_pendulum")
+    times = np.linspace(0.0, 1.6, 6)
+
+    def angle(h: float) -> Array:
+        return moved(engine, scene, start, times, h).states["bar"][:, ANGLE]
+
+    found = order(angle, ROUGH.get(words(engine), STEPS))
+    assert found == pytest.approx(planned(engine, scene, start).exponents[0], abs=SETTLED)
+
+
+@pytest.mark.parametrize("engine", SETTINGS, ids=words)
+def test_a_fast_sine_shows_the_declared_order(engine: Engine) -> None:
+    """Taken at the stages or at the middle of a step, where the setting is of a higher order."""
+    scene, start = shaken()
+    times = np.linspace(0.0, 0.8, 11)
+
+    def place(h: float) -> Array:
+        return moved(engine, scene, start, times, h).states["box"][:, X]
+
+    found = order(place, ROUGH.get(words(engine), STEPS))
+    assert found == pytest.approx(planned(engine, scene, start).exponents[0], abs=SETTLED)

@@ -6,7 +6,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import ellipj, ellipk
 
@@ -29,70 +28,11 @@ def pendulum(times: Array) -> tuple[Array, Array]:
     return hanging - math.pi / 2, np.hypot(along, across)
 
 
-def damped(times: Array, damping: float) -> Array:
-    """`spring_mass_damper`: y [m], from m ÿ + d ẏ + c (y − y∞) = 0."""
-    rest, root, decay = -0.5 - G / 36.0, np.emath.sqrt((damping / 2) ** 2 - 36.0), damping / 2
-    with np.errstate(invalid="ignore"):
-        slope = np.where(root == 0, times, np.sinh(root * times) / (root or 1.0))
-    swing = np.exp(-decay * times) * (np.cosh(root * times) + decay * slope)
-    return rest + (-0.6 - rest) * np.real(swing)
-
-
-def braked(times: Array, v: float, mu: float, slope: float) -> Array:
-    """x [m] of a block on an incline that holds what rests, or is too steep for it."""
-    push, hold = G * math.sin(slope), mu * G * math.cos(slope)
-    if v == 0.0:
-        return max(push - hold, 0.0) * times**2 / 2
-    a = push - math.copysign(hold, v)
-    t = np.minimum(times, -v / a)
-    return v * t + a * t**2 / 2
-
-
 def sliding_then_rolling(times: Array, v: float, omega: float, mu: float) -> Array:
     """x [m] of a disk: its slip v + R ω falls by 3 μ g."""
     rolls = (v + RADIUS * omega) / (3 * mu * G)
     t = np.minimum(times, rolls)
     return v * t - mu * G * t**2 / 2 + (v - mu * G * rolls) * (times - t)
-
-
-def leaning_bar(times: Array, length: float, angle: float, mu: float) -> tuple[Array, Array, Array]:
-    """x [m] and angle [rad] of a bar of 1 kg whose lower end slides backwards; the normal force."""
-    arm, inertia = length / 2, length**2 / 12
-
-    def lever(a: Array) -> Array:  # the end slides backwards: friction points forward
-        return arm * (mu * np.sin(a) - np.cos(a))
-
-    def normal(a: Array, omega: Array) -> Array:
-        falls = G - arm * np.sin(a) * omega**2
-        return falls / (1 - arm * np.cos(a) * lever(a) / inertia)
-
-    def rate(t: float, state: Array) -> Array:
-        _, a, vx, omega = state
-        force = normal(a, omega)
-        return np.array([vx, omega, mu * force, lever(a) * force / inertia])
-
-    begin = [arm * math.cos(angle), angle, 0.0, 0.0]
-    x, a, _, omega = solve_ivp(
-        rate, (0, times[-1]), begin, "DOP853", times, rtol=1e-12, atol=1e-13
-    ).y
-    return x, a, normal(a, omega)
-
-
-def pivoting(times: Array, length: float, angle: float) -> tuple[Array, Array, Array]:
-    """Angle [rad] and x, y acceleration [m/s²] of the centre of a bar that turns about its start.
-
-    So moves a bar whose tip sticks, and on a smooth floor one of two that lean on each other.
-    """
-
-    def rate(t: float, state: Array) -> list[float]:
-        return [state[1], -1.5 * G / length * math.cos(state[0])]
-
-    a, omega = solve_ivp(
-        rate, (0, times[-1]), [angle, 0.0], "DOP853", times, rtol=1e-12, atol=1e-13
-    ).y
-    alpha, arm = -1.5 * G / length * np.cos(a), length / 2
-    ax = -arm * (np.sin(a) * alpha + np.cos(a) * omega**2)
-    return a, ax, arm * (np.cos(a) * alpha - np.sin(a) * omega**2)
 
 
 def growing(times: Array, b: float = 1.0) -> Array:

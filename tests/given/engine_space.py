@@ -118,8 +118,3 @@ def simulated(
     (plan,) = engine.plans(scene, start)
     assert isinstance(plan, Plan), plan
     return engine.run(scene, start, times, step, plan, reactions=tuple(reactions), record=record)
-
-
-def omega(motion: Trajectory, body: str) -> Array:
-    """(N, 3) in body axes."""
-    return motion.states[body][:, SPACE.spin]

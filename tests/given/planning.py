@@ -3,9 +3,13 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import astuple, fields, is_dataclass
 from functools import cache
+from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from textmech import engines
+from textmech.cases.case import Case
 from textmech.cases.scene import Scene, Viscous
 from textmech.cases.scene.forces.force import of
 from textmech.cases.scene.frame import PLANE
@@ -13,9 +17,11 @@ from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
 from textmech.engines.foot_contact import strides
 from textmech.engines.point_forces import LIVING, TOLD
+from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import assembled
 
 from .scenes import SHIPPED as EVERY
+from .scenes import typed
 
 CASES = {name: case for name, case in EVERY.items() if case.scene.frame is PLANE}
 """The shipped cases in the plane, which every engine builds."""
@@ -29,8 +35,6 @@ SHIPPED = {name: engines.make(name, "shipped") for name in NAMES}
 
 SPATIAL = {"mujoco"}
 """The engines that have space."""
-EDGES: Mapping[str, Realised] = {"mujoco": "law", "pymunk": "driver"}
-"""How edges are held, by the tuned settings alone: no engine has one of its own."""
 
 
 def builds(engine: Engine, scene: Scene) -> bool:
@@ -103,9 +107,7 @@ def way_of(engine: Engine, scene: Scene) -> Realised:
     """How a tuned engine runs it."""
     if own(engine, scene):
         return "native"
-    if strides(scene):
-        return "driver"
-    return EDGES[engine.name] if scene.constraints else "law"
+    return "driver" if strides(scene) else "law"
 
 
 NATIVE = [(name, e) for name, e in PAIRS if own(e, EVERY[name].scene)]
@@ -156,6 +158,20 @@ def moved(
     """The engine's motion of the scene in one way."""
     plan = planned(engine, scene, start, realised)
     return engine.run(scene, start, times, step, plan, reactions=reactions, record=record)
+
+
+def certified(folder: Path, text: str, tail: str) -> tuple[Case, Trajectory]:
+    """The case of a file with this scene and tail, and its certified motion."""
+    case = typed(folder, text, tail=tail)
+    solution = solve(case)
+    assert solution.holds
+    return case, solution.trajectory
+
+
+def apart(known: Trajectory, found: Trajectory) -> Array:
+    """(6,) by column the largest difference of the states of all bodies."""
+    both = [np.abs(found.states[body] - rows).max(axis=0) for body, rows in known.states.items()]
+    return np.max(both, axis=0)
 
 
 def every(motion: Trajectory) -> Trajectory:

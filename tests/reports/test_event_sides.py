@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given.otherwise import otherwise
-from given.scenes import scene, parsed
+from given.scenes import parsed, scene
 from scipy.optimize import brentq
 
 from textmech.cases.case import Case, Event

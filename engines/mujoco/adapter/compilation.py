@@ -31,7 +31,7 @@ NOMINAL = 1e-3  # s: with which a scene is compiled; any step would do
 
 # Fields that a run writes: what follows the step, friction by our laws, the start in the floor.
 _WRITTEN = (*(field for group in GROUPS.values() for field in group.fields.values()),)
-_WRITTEN += ("dof_frictionloss", "pair_friction", "site_pos", "tendon_limited")
+_WRITTEN += ("dof_frictionloss", "pair_friction", "site_pos", "site_sameframe")
 _WRITTEN += ("key_qpos", "key_qvel")
 
 

@@ -13,7 +13,7 @@ from ..read.poses import poses
 from ..read.reaction import felt_force
 from ..read.readout import read
 from ..read.record import Record, all_steps, counted, sampled, whole
-from .plans import way
+from .plans import STEPPERS
 
 
 def simulate(
@@ -34,7 +34,7 @@ def simulate(
     """
     counts = counted(times, model.opt.timestep)
     grid = all_steps(times, model.opt.timestep) if every else times
-    steps = way(scene, realised).steps(scene, model, data)
+    steps = STEPPERS[realised](scene, model, data)
     laws = [*steps.controls, *point_force_callbacks(scene, model)]
     felt_by = {*scene.contacts, *scene.pairs, *(limit.name for limit in scene.limits())}
     touching = tuple(name for name in reactions if name.partition(".")[0] in felt_by)

@@ -30,7 +30,6 @@ class Touch:
     contact: Contact
     radius: float
     mass: float  # kg that resists the slip: 1/(1/m + R²/J)
-    heavy: float  # kg, m itself
     sense: int = 0
     before: float | None = None
     last: float = 0.0
@@ -78,14 +77,6 @@ class Touch:
         else:
             self.hold()
 
-    def halt(self) -> None:
-        """Stop the slip, to the last bit, by an impulse where the body touches."""
-        impulse = -self.speed * self.mass
-        self.data.qvel[self.x] += impulse / self.heavy
-        if self.turn is not None:
-            self.data.qvel[self.turn] = -float(self.data.qvel[self.x]) / self.radius
-        self._set(2 * self.contact.static, 0.0)
-
     def look(self) -> None:
         """Whether it touches, in the state that MuJoCo was last asked for.
 
@@ -97,10 +88,6 @@ class Touch:
                 f"{self.contact.name} comes down again at {self.data.time:.3g} s, and no law of "
                 "dry friction follows a blow"
             )
-
-    def carried(self, normal: float) -> None:
-        """The normal force [N] is this now, with which its friction goes."""
-        self.normal = self.normal_before = normal
 
     def remember(self) -> tuple[int, float]:
         """Sense of the slip and normal force [N], by which a reading restores this state."""
@@ -151,7 +138,7 @@ def touches(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[To
             radius = body.radius or 0.0
             turns = radius**2 / body.moment if body.turns else 0.0
             mass = 1 / (1 / body.mass + turns)
-            found.append(Touch(model, data, contact, radius, mass, body.mass))
+            found.append(Touch(model, data, contact, radius, mass))
     return found
 
 

@@ -5,32 +5,54 @@ further step of a gait multiplies. So a foot stands on a `connect` to where it c
 strike is one impulse, from MuJoCo's own mass matrix and Jacobian.
 """
 
-from collections.abc import Mapping
-
 import mujoco
 import numpy as np
 
 from ....cases.scene import Anchor, Scene
 from ...foot_contact import Stride, stride, strode
-from .cut import Cut, Height
 
 Standing = dict[str, tuple[float, ...] | None]
 """By foot where it stands [m], or None."""
 
+_STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+_ROOT = 4e-16  # s: as well as a time is known
+_SHORTEST = 1e-12  # of a step: what is left is rounding
 
-class Feet(Cut[str]):
-    """The feet of a scene in a model, and which of them stand."""
+
+class Feet:
+    """The feet of a scene in a model, which of them stand, and steps that are cut at a strike."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, stride: Stride, standing: Standing
     ) -> None:
-        super().__init__(model, data)
+        self.model, self.data = model, data
         self.stride, self.standing = stride, standing
+        self._begun = np.empty(mujoco.mj_stateSize(model, _STATE))
         self._equalities = {name: model.eq(name).id for name in stride.feet}
         self._sites = {name: model.site(name).id for name in stride.feet}
         ends = {end for foot in stride.feet.values() for end in (foot.at, foot.ahead_of) if end}
         self._places = {end: data.site_xpos[model.site(str(end)).id] for end in ends}
-        self._above: list[str] = []  # the swinging feet that were above the floor as a part began
+
+    def step(self, step: float) -> None:
+        """Take one step [s], in as many parts as feet strike in it."""
+        left = step
+        while left > _SHORTEST * step:
+            mujoco.mj_kinematics(self.model, self.data)
+            self.stride.look(self._place)
+            above = {
+                name: height for name in self._swinging() if (height := self._height(name)) > 0.0
+            }
+            mujoco.mj_getState(self.model, self.data, self._begun, _STATE)
+            self._take(left)
+            down = [name for name in above if self._height(name) <= 0.0]
+            if not down:
+                break
+            lengths = {name: self._until_down(name, above[name], left) for name in down}
+            first = min(lengths, key=lengths.__getitem__)
+            self._again(lengths[first])
+            self._strike(first)
+            left -= lengths[first]
+        self.model.opt.timestep = step
 
     def remember(self) -> Standing:
         """A copy of which feet stand, by which a reading restores this state."""
@@ -44,23 +66,35 @@ class Feet(Cut[str]):
             if place is not None:
                 self.model.site_pos[self._sites[name]] = place
 
-    def _begin(self) -> None:
-        mujoco.mj_kinematics(self.model, self.data)
-        self.stride.look(self._place)
-        self._above = [name for name in self._swinging() if self._height(name) > 0.0]
-
-    def _happens(self) -> Mapping[str, Height]:
-        """Feet that came down."""
+    def _take(self, length: float) -> None:
+        self.model.opt.timestep = length
+        mujoco.mj_step(self.model, self.data)
         mujoco.mj_kinematics(self.model, self.data)  # a step leaves places as they were
-        down = [name for name in self._above if self._height(name) <= 0.0]
-        return {name: lambda name=name: self._after(name) for name in down}
+
+    def _again(self, length: float) -> None:
+        mujoco.mj_setState(self.model, self.data, self._begun, _STATE)
+        self._take(length)
+
+    def _until_down(self, name: str, above: float, longest: float) -> float:
+        """The shortest part [s] of a step at whose end the foot, now `above` [m], is below."""
+        from scipy.optimize import brentq
+
+        def after(length: float) -> float:
+            self._again(length)
+            return self._height(name)
+
+        if not after(longest):
+            return longest
+        root = brentq(lambda t: after(t) if t else above, 0.0, longest, xtol=_ROOT)
+        beyond = _ROOT
+        while root < longest and after(root) >= 0.0:
+            root, beyond = min(root + beyond, longest), 2 * beyond
+        return root
 
     def _swinging(self) -> list[str]:
         """The feet that the floor meets, and that do not stand on it."""
-        return [name for name, meets in self.stride.meets.items() if meets and not self._on(name)]
-
-    def _on(self, name: str) -> bool:
-        return self.standing[name] is not None
+        meets = self.stride.meets.items()
+        return [name for name, met in meets if met and self.standing[name] is None]
 
     def _place(self, at: Anchor) -> tuple[float, float]:
         place = self._places[at]
@@ -69,18 +103,13 @@ class Feet(Cut[str]):
     def _height(self, name: str) -> float:
         return self._place(self.stride.feet[name].at)[1]
 
-    def _after(self, name: str) -> float:
-        mujoco.mj_kinematics(self.model, self.data)
-        return self._height(name)
-
-    def _change(self, key: str) -> None:
+    def _strike(self, name: str) -> None:
         """The foot stands where it is, and the one behind is let go."""
-        mujoco.mj_kinematics(self.model, self.data)
-        foot = self.stride.feet[key]
+        foot = self.stride.feet[name]
         behind = next(n for n, other in self.stride.feet.items() if other.at == foot.ahead_of)
         place = (*self._place(foot.at), 0.0)
-        self.stride.meets = {**self.stride.meets, key: True, behind: False}
-        self.recall({**self.standing, key: place, behind: None})
+        self.stride.meets = {**self.stride.meets, name: True, behind: False}
+        self.recall({**self.standing, name: place, behind: None})
         stop(self.model, self.data)
 
 

@@ -1,7 +1,7 @@
 """Dry friction of a joint that MuJoCo's one number cannot say: which way it slides, and when.
 
 MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with just that force.
-`bounded` sets the force before every step (the law); `Rubbing` cuts the steps at the events.
+`friction_law.bounded` sets the force before every step.
 """
 
 from dataclasses import dataclass, field
@@ -66,11 +66,6 @@ class Slide:
     def hold(self) -> None:
         """Friction holds, whatever it takes."""
         self._loss[self.dof] = self._holds
-        self._pushed[self.dof] = 0.0
-
-    def halt(self) -> None:
-        """Set the speed to zero, to the last bit, and take the push away."""
-        self._qvel[self.dof] = 0.0
         self._pushed[self.dof] = 0.0
 
     def remember(self) -> int:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from ....cases.scene.forces.force import Rope, of
@@ -56,13 +55,6 @@ class Tendons:
         self.data.qpos[:] = places
         return (rates[0] - rates[1]) / (2 * AHEAD)
 
-    def eased(self, rows: Array) -> Array:
-        """M⁻¹ Jᵀ of some rows, transposed (K, n), of the data's last `mj_forward`."""
-        found = np.zeros_like(rows)
-        if len(rows):
-            mujoco.mj_solveM(self.model, self.data, found, np.ascontiguousarray(rows))
-        return found
-
 
 def ropes_of(scene: Scene) -> Iterator[Rope]:
     """The scene's ropes."""
@@ -70,29 +62,24 @@ def ropes_of(scene: Scene) -> Iterator[Rope]:
 
 
 def draw(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
-    """Moves the data to where ropes that are taut pull rightly; how much too long [m] they are."""
+    """Moves the data, the least way in M, to where ropes that are taut pull rightly.
+
+    Returns how much too long [m] each of them is.
+    """
     ropes = list(ropes_of(scene))
     tendons = Tendons(model, data, [model.tendon(rope.name).id for rope in ropes])
     mujoco.mj_forward(model, data)
     rows, most = tendons.rows(), np.array([rope.length for rope in ropes])
-    rates = rows @ data.qvel
-    free = tendons.turning() + rows @ data.qacc_smooth
-    taut = (tendons.lengths > most * (1 - NEAR)) & (rates > -NEAR * most) & (free > 0.0)
-    moved = lengthen(tendons, np.flatnonzero(taut))
-    return {rope.name: more for rope, more in zip(ropes, moved.tolist(), strict=True) if more}
-
-
-def lengthen(tendons: Tendons, taut: NDArray[np.intp]) -> Array:
-    """Moves the data the least way, in M, to where each that is taut pulls rightly; (K,) [m]."""
-    model, data, moved = tendons.model, tendons.data, np.zeros(len(tendons.numbers))
+    rates, turning = rows @ data.qvel, tendons.turning()
+    free = turning + rows @ data.qacc_smooth
+    pulls = (tendons.lengths > most * (1 - NEAR)) & (rates > -NEAR * most) & (free > 0.0)
+    taut = np.flatnonzero(pulls)
     if not len(taut):
-        return moved
+        return {}
     numbers = np.array(tendons.numbers)[taut]
     k = -model.tendon_solref_lim[numbers, 0] * model.tendon_solimp_lim[numbers, 0]
-    most = model.tendon_range[numbers, 1]
-    moved[taut] = np.maximum(np.maximum(tendons.turning()[taut], 0.0) / k, BEHIND * most)
-    mujoco.mj_forward(model, data)
-    rows = tendons.rows()[taut]
-    eased = tendons.eased(rows)
-    data.qpos += np.linalg.solve(rows @ eased.T, moved[taut]) @ eased
-    return moved
+    longer = np.maximum(np.maximum(turning[taut], 0.0) / k, BEHIND * most[taut])
+    eased = np.zeros((len(taut), model.nv))  # M⁻¹ Jᵀ, transposed
+    mujoco.mj_solveM(model, data, eased, np.ascontiguousarray(rows[taut]))
+    data.qpos += np.linalg.solve(rows[taut] @ eased.T, longer) @ eased
+    return {ropes[i].name: more for i, more in zip(taut.tolist(), longer.tolist(), strict=True)}

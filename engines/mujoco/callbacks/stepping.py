@@ -1,4 +1,4 @@
-"""How steps are taken: by MuJoCo alone, with our laws, or cut where something happens in them."""
+"""How steps are taken: by MuJoCo alone, with our laws, or cut where a foot strikes."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -11,15 +11,12 @@ from numpy.typing import NDArray
 
 from ....cases.scene import Scene
 from .contact_friction import Touch, one_touch, touches
-from .cut import Cut
-from .driver import Rubbing, bounded, falling
 from .edge import edges
 from .foot_contact import Feet, feet
 from .friction import Slide, slides, smooth_only
-from .rope_impact import Catching
+from .friction_law import bounded
 from .signal import Control
 from .smooth import smooth
-from .spring_switch import Corners
 
 
 @dataclass
@@ -28,7 +25,7 @@ class Steps:
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    slides: Sequence[Slide | Touch | Feet | Catching]
+    slides: Sequence[Slide | Touch | Feet]
     take: Callable[[int], None]
     controls: list[Control] = field(default_factory=list)  # what every stage needs of us
     alone: bool = True  # whether MuJoCo's own loop takes them
@@ -83,27 +80,11 @@ def by_law(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
     return Steps(model, data, found, _repeated(step), controls, alone=False)
 
 
-def at_friction(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
-    """Steps that are cut at the events of dry friction."""
-    (slide,) = _rubbing(scene, model, data)
-    return _cut(Rubbing(slide), noting=[slide], controls=falling(slide))
-
-
 def at_strikes(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
     """Steps that are cut where a foot strikes."""
     walks = feet(scene, model, data)
-    return _cut(walks, noting=[walks])
-
-
-def at_catches(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
-    """Steps that are cut where a rope comes taut."""
-    catching = Catching(scene, model, data)
-    return _cut(catching, noting=[catching])
-
-
-def at_corners(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
-    """Steps that are cut where a spring begins or ends to act."""
-    return _cut(Corners(scene, model, data), noting=[])
+    step = partial(walks.step, float(model.opt.timestep))
+    return Steps(model, data, [walks], _repeated(step), alone=False)
 
 
 def _rubbing(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Slide | Touch]:
@@ -111,15 +92,6 @@ def _rubbing(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[S
     if smooth_only(scene) and not one_touch(scene):
         return []
     return [*slides(scene, model, data), *touches(scene, model, data)]
-
-
-def _cut(
-    driver: Cut[Any],
-    noting: Sequence[Slide | Touch | Feet | Catching],
-    controls: Sequence[Control] = (),
-) -> Steps:
-    step = partial(driver.step, float(driver.model.opt.timestep))
-    return Steps(driver.model, driver.data, noting, _repeated(step), [*controls], alone=False)
 
 
 def _repeated(step: Callable[[], None]) -> Callable[[int], None]:

@@ -17,7 +17,7 @@ def springy(e: float, beat: float = BEAT) -> tuple[str, float, str]:
 
     Where in a step a bounce begins decides what RK4 keeps, at any h: at e = 1 it is off by up to
     beat²/20 of it, else by b/3, for the damper meets at once what lands. Of 0.2 that is 0.2 %, 1 %
-    at e = 0.8, 3.5 % at 0.5, 16 % at 0.1 (measured in test_bounce.py); of 0.05 a quarter, in a
+    at e = 0.8, 3.5 % at 0.5, 16 % at 0.1 (measured in test_contact.py); of 0.05 a quarter, in a
     bounce that lasts four times as long.
     """
     lasts, kept = spread(e, beat)

@@ -3,12 +3,12 @@
 MuJoCo asks of a contact the acceleration d (−b v − k r) + (1 − d) a, where a is the one without
 the contact. What holds a wheel (d near 1) makes a sliding body hop and takes the friction out of
 an impact, and a spring that carries (k) throws back what falls: so there are several. Each is
-measured in tests/engines/test_floor.py, test_tips.py and test_impacts.py.
+measured by rows of reports/tolerance.csv.
 
 In space it leaves out that the touching point wanders over the body (J̇ v): a disk that steers
 slips by h J̇ v, so that its error is of first order, whatever the integrator. Who takes J̇ v from
 `efc_aref` in the control callback, and an impratio of 1e8, has the second order (tested in
-tests/engines/mujoco/space/test_wandering.py).
+tests/engines/mujoco/space/test_rolling.py).
 """
 
 import math

@@ -36,7 +36,7 @@ class SlideFriction:
         }
 
     def keep(self, sample: int, data: mujoco.MjData) -> None:
-        """MuJoCo's own friction, and what our law or driver pushes in its place."""
+        """MuJoCo's own friction, and what our law pushes in its place."""
         for dof, kept in self._of_dof.items():
             rows = (data.efc_type == _FRICTION) & (data.efc_id == dof)
             kept[sample] = data.qfrc_applied[dof] + data.efc_force[rows].sum()

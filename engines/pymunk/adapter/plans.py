@@ -9,7 +9,7 @@ from ....cases.scene.quantity import table
 from ...engine import Choice, Plan, Realised, Start
 from ...foot_contact import strides
 from ...law import one_number
-from ..callbacks.cut import cuts, lands
+from ..callbacks.cut import cuts
 from ..callbacks.force import damped, lacking
 from ..callbacks.friction import ruled
 from ..model.contact import closed
@@ -26,22 +26,19 @@ SIGNED = ("fx", "fy", "torque", "drive", "friction")
 
 
 def ways(scene: Scene, start: Start) -> tuple[Realised, ...]:
-    """Edges by our driver, forces that pymunk has no element for by our law.
+    """Feet by our driver, edges and forces that pymunk has no element for by our law.
 
     Dampers also by their law: pymunk applies its own after the kick, a first order. So does its
     space's damping, beside anything else that acts.
 
     Dry friction too: pymunk's has one bound, where the textbook's has up to four.
-
-    Landings also by our driver: pymunk finds them at the end of a step, a first order.
     """
-    if scene.constraints or strides(scene):
+    if strides(scene):
         return ("driver",)
-    if lacking(scene, start):
+    if scene.constraints or lacking(scene, start):
         return ("law",)
     law = damped(scene) or any(scene.dampers()) or bool(slowing(scene)) or ruled(scene)
-    driver = lands(scene, start)
-    return ("native", *(("law",) if law else ()), *(("driver",) if driver else ()))
+    return ("native", "law") if law else ("native",)
 
 
 def plan(
@@ -92,8 +89,7 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided, roped = any(scene.one_sided()), any(scene.limits())
     jumps = (rubs or met) and any(law.corners for law in scene.laws())
-    jointed = realised == "driver" and met and bool(scene.joints)  # no gap is closed in a part
-    told = brakes or jumps or strides(scene) or sided or roped or jointed
+    told = brakes or jumps or strides(scene) or sided or roped
     pulled = any(scene.gravity) or len(scene.forces) > len(slowing(scene))
     slowed = bool(slowing(scene)) and (pulled or met)
     return told or (native and (damped(scene) or met or slowed))
@@ -148,8 +144,8 @@ def _words(scene: Scene, start: Start, realised: Realised, numbers: Numbers, ste
         words.append(f"{', '.join(ours)} {what}")
     if strides(scene):
         words.append("before each step the floor is told which foot it meets")
-    if realised == "driver" and cuts(scene):
-        words.append("a step is cut where something lands, which the script does not")
+    if cuts(scene):
+        words.append("a step is cut where a foot strikes, which the script does not")
     if scene.constraints:
         words.append(
             f"{', '.join(scene.constraints)} held by pin joints that are laid anew before each step"

@@ -1,6 +1,6 @@
-"""Landings by a driver: a step is cut where something comes down, and the impact is one instant.
+"""Strikes by a driver: a step is cut where a foot comes down, and the impact is one instant.
 
-pymunk finds a landing at the end of the step in which it happens, up to h late and v h deep: an
+pymunk finds a strike at the end of the step in which it happens, up to h late and v h deep: an
 error of first order. Here the step ends at the touch-down, as the motion goes on along the
 velocities and as it falls freely; there the impact is pymunk's own, in a step that lasts no time;
 and the rest of the step begins behind it. Each part is a step of the midpoint protocol.
@@ -13,8 +13,7 @@ from pymunk.space import Space
 from pymunk.vec2d import Vec2d
 
 from ....cases.scene import Scene
-from ...engine import Start
-from ..model.contact import closed
+from ...foot_contact import strides
 from ..model.slot import oblique
 from ..model.world import World
 from .foot import Carrier, Foot
@@ -25,33 +24,32 @@ _PARTS = 3  # for each that comes down: nearly there, there, and there again
 
 
 def cuts(scene: Scene) -> bool:
-    """Whether a step may be cut: all that acts is pymunk's own, and takes steps of any length."""
+    """Whether feet cut a step: only they touch, and what acts is pymunk's own.
+
+    Its own takes steps of any length.
+    """
+    if not strides(scene) or any(foot.ahead_of is None for foot in scene.contacts.values()):
+        return False
     told = any(ELEMENTS[type(force)].tell for force in scene.forces.values())
     told |= bool(scene.drives or scene.constraints) or any(scene.laws())
     gives = any(joint.dry_friction for joint in scene.joints.values()) or any(scene.limits())
-    gives |= any(contact.static != contact.kinetic for contact in scene.contacts.values())
     carried = any(oblique(scene, joint) for joint in scene.joints.values())
     return not (told or gives or carried or scene.pairs or any(scene.one_sided()))
 
 
-def lands(scene: Scene, start: Start) -> bool:
-    """Whether a step may be cut, and something is there that does not stand on its plane yet."""
-    above = {contact.name for contact in scene.touching.values() if contact.switches}
-    return cuts(scene) and bool(above - {contact.name for contact in closed(scene, start)})
-
-
-class Landings:
-    """The feet that may come down in a world; `step` takes its steps in place of `space.step`."""
+class Strikes:
+    """The feet of a world; `step` takes its steps in place of `space.step`."""
 
     def __init__(self, world: World, seed: float) -> None:
-        self.world, self.space = world, world.space
-        touching = world.scene.touching.values()
-        self._carriers = {contact.body: Carrier(world, contact.body) for contact in touching}
-        self.feet = [Foot(world, each, seed, self._carriers[each.body]) for each in touching]
+        assert world.stride is not None
+        self.world, self.space, self.stride = world, world.space, world.stride
+        feet = self.stride.feet.values()
+        self._carriers = {foot.body: Carrier(world, foot.body) for foot in feet}
+        self.feet = [Foot(world, foot, seed, self._carriers[foot.body]) for foot in feet]
         self._lengths, self._begun = Lengths(world.space), False
 
     def step(self, step: float) -> None:
-        """One step [s], in as many parts as something comes down in it; places are h/2 behind."""
+        """One step [s], in as many parts as feet come down in it; places are h/2 behind."""
         self._moved()
         self._look(step)
         if not self._begun:
@@ -74,7 +72,7 @@ class Landings:
         self._begun = True
         if any(foot.stands for foot in self.feet):
             self._drift(step / 2)
-            self._strike([], step)
+            self._strike([])
             self._drift(-step / 2)
 
     def _cut(self, step: float) -> None:
@@ -82,7 +80,7 @@ class Landings:
         left = step
         if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
             # As the step before ended, by a little more than it had foreseen.
-            self._strike(late, step)
+            self._strike(late)
         for _ in range(_PARTS * len(self.feet)):
             after = [
                 foot.after(left) for foot in self.feet if foot.is_above and foot.comes(0.0, left)
@@ -92,7 +90,7 @@ class Landings:
             self._part(min(after), step)
             left -= min(after)
             if down := [foot for foot in self.feet if foot.is_down]:
-                self._strike(down, step)
+                self._strike(down)
         self._part(left, step)
         self._drift(-step / 2)
 
@@ -109,33 +107,24 @@ class Landings:
         self._lengths.take(length)
         self.world.share[0] = length / step
 
-    def _strike(self, struck: Sequence[Foot], step: float) -> None:
+    def _strike(self, struck: Sequence[Foot]) -> None:
         for foot in struck:
-            self._stand(foot)
-            foot.touch(step)
+            self.stride.come_down(foot.contact.name)
+            self._meet()
+            foot.stands = True
         self._lay(NO_TIME, strikes=True)
         self._lengths.impact()
         self._moved()
-        for foot in struck:
-            foot.bounce()
-
-    def _stand(self, foot: Foot) -> None:
-        """Let the foot behind go, of feet that stand one after the other."""
-        if self.world.stride:
-            self.world.stride.come_down(foot.contact.name)
-            self._meet()
 
     def _look(self, step: float) -> None:
-        if self.world.stride:
-            self.world.stride.look(self.world.place)
-            self._meet()
+        self.stride.look(self.world.place)
+        self._meet()
         for foot in self.feet:
             foot.look(step)
 
     def _meet(self) -> None:
-        assert self.world.stride is not None
         for foot in self.feet:
-            foot.meets = self.world.stride.meets.get(foot.contact.name, True)
+            foot.meets = self.stride.meets[foot.contact.name]
 
     def _lay(self, length: float, *, strikes: bool = False) -> None:
         for foot in self.feet:

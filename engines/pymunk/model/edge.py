@@ -1,4 +1,4 @@
-"""Edges, which pymunk has no joint for: pin joints that our driver lays anew before each step."""
+"""Edges, which pymunk has no joint for: pin joints that our law lays anew before each step."""
 
 from collections.abc import Callable, Iterator
 from inspect import getsource
@@ -88,7 +88,7 @@ def lays_as_text(world: World) -> Iterator[str]:
             yield f"    before[{name!r}] = now"
 
 
-def driver(world: World, step: float) -> list[Callable[[float], None]]:
+def lays(world: World, step: float) -> list[Callable[[float], None]]:
     """The function that lays the edges' pin joints before the step that starts at t [s], if any."""
     gravity = world.space.gravity
 

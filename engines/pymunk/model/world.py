@@ -39,7 +39,7 @@ class World:
     inner: what forces with an inner state have had, at the start and in the middle of each step.
     slowed: the forces that the space's damping is.
     plain: by contact the shape that a user has, in place of `wheels`.
-    share: of a step, which the last impulses are of; less than 1 where our driver has cut it.
+    share: of a step, which the last impulses are of; less than 1 where a foot has cut it.
     """
 
     scene: Scene

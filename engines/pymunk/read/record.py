@@ -28,7 +28,7 @@ class Record:
     """Steps that are recorded: `keep` keeps the present states, `trajectory` is what they were.
 
     forces: the quantities of contacts of which the impulses are kept too. cut: whether a step is
-    where something lands.
+    where a foot comes down.
     """
 
     world: World
@@ -90,7 +90,7 @@ class Record:
 
         Where a body bounces, it is in the floor only in the middle of the step: both rows around
         it stand above. There the middle is kept too, with the velocities before the impact. Third
-        are the rows before which the middles stand. A step that is cut where something lands has
+        are the rows before which the middles stand. A step that is cut where a foot strikes has
         no such middle: half a step back along its velocities behind the impact no body ever was.
         """
         middle = rows[1:].copy()

@@ -12,12 +12,12 @@ from typing import Any
 
 from ....cases.scene import Scene
 from ...engine import Realised, Start
-from ..callbacks.cut import Landings, cuts
+from ..callbacks.cut import Strikes, cuts
 from ..callbacks.force import tells
 from ..callbacks.friction import laws
 from ..model.contact import Tip, closed, follower, is_tip, sink, steers
 from ..model.drive import tells as turned
-from ..model.edge import driver
+from ..model.edge import lays
 from ..model.pair import closed_pairs, pair_followers, press
 from ..model.plain_shapes import swell
 from ..model.world import World
@@ -82,8 +82,8 @@ def _between(
     keep: Callable[[], None] | None,
 ) -> Callable[[int, int], None]:
     """A function that takes the steps from one number up to another."""
-    if realised == "driver" and cuts(world.scene):
-        return _cutting(Landings(world, numbers.get("start.seed", 0.0)), step, keep)
+    if cuts(world.scene):
+        return _cutting(Strikes(world, numbers.get("start.seed", 0.0)), step, keep)
     one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
     reflects = bool(numbers.get("contact.reflects"))
     applied = forces(world, step, midpoint=midpoint, law=realised != "native", reflects=reflects)
@@ -119,13 +119,13 @@ def _between(
 
 
 def _cutting(
-    landings: Landings, step: float, keep: Callable[[], None] | None
+    strikes: Strikes, step: float, keep: Callable[[], None] | None
 ) -> Callable[[int, int], None]:
-    """A function that takes steps by our driver, which cuts a step where something lands."""
+    """A function that takes steps by our driver, which cuts a step where a foot strikes."""
 
     def cut(first: int, last: int) -> None:
         for _ in repeat(None, last - first):
-            landings.step(step)
+            strikes.step(step)
             if keep is not None:
                 keep()
 
@@ -147,7 +147,7 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     told = [*turned(world, step, midpoint=midpoint), *tells(world, step, midpoint=midpoint)]
     told += [*friction, *_followers(world, step, reflects)]
     walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
-    return [*told, *walks, *driver(world, step)]  # which has to know what has been told
+    return [*told, *walks, *lays(world, step)]  # which has to know what has been told
 
 
 def _followers(world: World, step: float, reflects: bool) -> list[Apply]:

@@ -1,17 +1,24 @@
 """MuJoCo's floor: how it settles, what keeps blocks from creeping, and the damper of a bounce."""
 
+# MuJoCo's bindings are compiled and have no stubs.
+# pyright: reportAttributeAccessIssue=false
+
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
+import mujoco
 import numpy as np
 import pytest
+from given import scenes
 from given.engine_scenes import (
     BLOCK,
     RESTS,
     ROLLS,
     WHEEL,
+    G,
     incline,
     launched,
     machine,
@@ -21,10 +28,14 @@ from given.planning import SHIPPED, TUNED, every, moved, planned
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal
-from textmech.cases.trajectory import VX, Array
+from textmech.cases.scene.shape import rigid
+from textmech.cases.trajectory import ANGLE, VX, VY, Array
 from textmech.engines.mujoco.callbacks import settle
 from textmech.engines.mujoco.callbacks.settle import Floor
-from textmech.engines.mujoco.model.bounce import damping_ratio
+from textmech.engines.mujoco.model.bounce import damping_ratio, springy
+from textmech.engines.mujoco.model.limit import BEAT as OF_STOPS
+from textmech.reference.solve import solve
+from textmech.reports.compare.trial.start import first
 
 
 def test_a_disk_is_started_as_deep_as_it_is_carried() -> None:
@@ -90,3 +101,127 @@ def test_what_friction_holds_is_held_whatever_rounding_says(rounding: float) -> 
     held = _Held(rounding)
     settle._creep(cast("Floor", held), 0)
     assert held.creeps[0] == pytest.approx(held.held, rel=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("points", [2, 4, 6])
+def test_a_block_lands_flat_on_several_points_and_lies(points: int) -> None:
+    """Their dampers add up: six, each as strong as one alone, throw it back by 0.7 m/s of 2.4."""
+    feet = {f"P{i}": (x, -0.1) for i, x in enumerate(np.linspace(-0.4, 0.4, points).tolist())}
+    box = rigid(name="box", mass=2.0, inertia=0.1, points=feet)
+    scene = incline(box, *[touching("box", 2.0, point=foot) for foot in feet])
+    times, start = np.linspace(0.0, 1.0, 11), {"box": (0.0, 0.4, 0.0, 0.5, 0.0, 0.0)}
+    wanted = tuple(f"touch_{foot}.normal" for foot in feet)
+    run = moved(TUNED["mujoco"], scene, start, times, 1e-4, reactions=wanted, record=True)  # type: ignore[arg-type]
+    assert every(run).states["box"][:, VY].max() < 0.12  # measured 0.042
+    _, y, angle, *rates = run.states["box"][-1]
+    assert (y, angle) == pytest.approx((0.1, 0.0), abs=5 * 1e-4)
+    assert rates == pytest.approx([0.0] * 3, abs=1e-4)
+    assert sum(run.reactions[each][-1] for each in wanted) == pytest.approx(2 * G, abs=1e-3)
+
+
+# What is said of MuJoCo's bounces: how much of the speed they keep, wherever in a step.
+
+
+H = 1e-4  # s
+V = 2.0  # m/s
+BALL = """\
+<mujoco>
+<option timestep="{h}" integrator="RK4" jacobian="dense" tolerance="1e-14" gravity="0 0 0">
+<flag diagexact="enable"/></option>
+<worldbody><geom name="wall" type="plane" size="0 0 1" zaxis="-1 0 0"/>
+<body><joint type="slide" axis="1 0 0"/><inertial pos="0 0 0" mass="1.3" diaginertia="1 1 1"/>
+<geom name="ball" size="0.1"/></body></worldbody>
+<contact><pair geom1="wall" geom2="ball" condim="1" solimp="1.01e-4 1.01e-4 1e-3"
+solref="{solref}"/></contact>
+</mujoco>"""
+
+
+def kept(e: float, beat: float) -> Array:
+    """(40,) of the speed, where the ball meets the wall all over a step."""
+    _, b, _ = springy(e, beat)
+    text = BALL.format(h=H, solref=f"{-((beat / H) ** 2)} {-b / H}")
+    model = mujoco.MjModel.from_xml_string(text)
+    data, speeds = mujoco.MjData(model), []
+    for part in np.arange(40) / 40:
+        mujoco.mj_resetData(model, data)
+        data.qpos[0], data.qvel[0] = -0.1 - (10 + part) * V * H, V
+        mujoco.mj_step(model, data, 20 + math.ceil(4 * math.pi / beat))
+        speeds.append(-data.qvel[0] / V)
+    return np.array(speeds)
+
+
+@pytest.mark.parametrize("beat", [0.2, OF_STOPS])
+@pytest.mark.parametrize("e", [1.0, 0.9, 0.8, 0.5, 0.3, 0.1])
+def test_it_keeps_as_much_as_is_said(e: float, beat: float) -> None:
+    """About, of what is a rule of thumb: 0.85 to 1.3 of it was measured."""
+    because = springy(e, beat)[2]
+    said = float(because.partition("about ")[2].partition(" %")[0])
+    share = kept(e, beat) / e - 1
+    off = 100 * np.max(np.abs(share))
+    assert np.mean(share) == pytest.approx(0.0, abs=0.15 * off + 1e-4)
+    assert 0.7 * said < off < 1.5 * said
+
+
+# What touches two planes and slides on both from rest: a settled start that sweeps do not find.
+
+
+LADDER = """\
+scene:
+  planes: {wall: {at: [0, 0], normal: [1, 0]}}
+  bodies: {l: {bar: {mass: 5, length: 2}}}
+  contacts:
+    f: {between: [l.start, ground.floor], friction: 0.1}
+    w: {between: [l.end, ground.wall], friction: 0.2}
+initial: {l: {on: [start, end], angle: 120 deg}}
+allow: {l.angle: 1.0e-2, w.normal: 1}
+"""
+DISK = """\
+scene:
+  planes: {wall: {at: [0, 0], normal: [1, 0]}}
+  bodies: {l: {disk: {mass: 2, radius: 0.2}}}
+  contacts:
+    f: {between: [l, ground.floor], friction: 0.2}
+    w: {between: [l, ground.wall], friction: 0.3}
+  forces: {m: {torque: l, constant: 2}}
+initial: {l: {x: 0.2, y: 0.2}}
+allow: {l.angle: 1.0e-2, w.normal: 1}
+"""
+
+
+def off(folder: Path, text: str) -> tuple[float, float]:
+    """rad of its angle, and N of the wall's force, at 0.1 ms."""
+    case = scenes.typed(folder, text, tail=scenes.tail(0.4, 21))
+    motion = solve(case)
+    assert motion.holds
+    known = motion.trajectory
+    found = moved(
+        TUNED["mujoco"], case.scene, first(known), case.times, 1e-4, reactions=("w.normal",)
+    )
+    turned = found.states["l"][:, ANGLE] - known.states["l"][:, ANGLE]
+    forces = found.reactions["w.normal"] - known.reactions["w.normal"]
+    return float(np.abs(turned).max()), float(np.abs(forces).max())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "angle", "force"),
+    [(LADDER, 3e-7, 1e-4), (DISK, 1e-5, 1e-8)],  # measured 9e-8 rad, 3e-5 N; 3e-6 rad, 4e-10 N
+    ids=["ladder", "disk"],
+)
+def test_it_starts_where_its_planes_carry_it(
+    tmp_path: Path, text: str, angle: float, force: float
+) -> None:
+    turned, pressed = off(tmp_path, text)
+    assert turned < angle
+    assert pressed < force
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a start of sweeps that run round, between what sticks and what slides")
+@pytest.mark.parametrize("text", [LADDER, DISK], ids=["ladder", "disk"])
+def test_a_start_that_has_not_settled_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
+) -> None:
+    monkeypatch.setattr(settle, "_FEW", 0)
+    assert off(tmp_path, text)[1] > 1.0

@@ -8,7 +8,7 @@ import numpy as np
 import pymunk
 import pytest
 from given import scenes
-from given.planning import TUNED, begun, moved
+from given.planning import TUNED, apart, begun, certified, every, moved
 
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Array, Trajectory
@@ -17,6 +17,7 @@ from textmech.engines.pymunk.callbacks import point_forces as points
 from textmech.engines.pymunk.callbacks.friction import turn
 from textmech.engines.pymunk.model import limit
 from textmech.engines.pymunk.model.pair import closed_pairs
+from textmech.engines.pymunk.settings import recipe
 from textmech.engines.pymunk.stepping.run import placed
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import first
@@ -45,17 +46,13 @@ allow: {rod.angle: 1.0e-2}
 
 
 def known(folder: Path, text: str, duration: float) -> tuple[Case, Trajectory]:
-    case = scenes.typed(folder, text, tail=scenes.tail(duration, 26))
-    solution = solve(case)
-    assert solution.holds
-    return case, solution.trajectory
+    return certified(folder, text, scenes.tail(duration, 26))
 
 
-def off(case: Case, motion: Trajectory, step: float, way: Realised, body: str = "rod") -> Array:
-    """(6,) how far the states of a body are from the reference's."""
+def off(case: Case, motion: Trajectory, step: float, way: Realised) -> Array:
+    """(6,) how far the states are from the reference's."""
     found = moved(PYMUNK, case.scene, first(motion), case.times, step, realised=way)
-    largest: Array = np.abs(found.states[body] - motion.states[body]).max(axis=0)
-    return largest
+    return apart(motion, found)
 
 
 def test_a_force_is_told_the_spin_of_its_point(tmp_path: Path) -> None:
@@ -157,3 +154,42 @@ def test_what_is_about_to_part_is_not_pressed_together() -> None:
     assert len(touching(0.0)) == 1
     assert len(touching(-0.2)) == 1
     assert touching(0.2) == []
+
+
+LADDER = """\
+scene:
+  planes: {wall: {at: [0, 0], normal: [1, 0]}}
+  bodies: {rod: {bar: {mass: 5.0, length: 3.0}}}
+  contacts:
+    foot: {between: [rod.end, ground.floor], friction: 0}
+    top: {between: [rod.start, ground.wall], friction: 0}
+events: {leaves: {top.normal: falls to zero}}
+initial: {rod: {angle: -0.9, on: [end, start]}}
+allow: {rod.angle: 1.0e-2}
+"""
+
+
+def let_go(folder: Path, step: float) -> tuple[float, float]:
+    """s: when the wall first pushes no longer, in the reference and in pymunk."""
+    case, motion = known(folder, LADDER, 0.5)
+    found = moved(
+        PYMUNK, case.scene, first(motion), case.times, step, reactions=("top.normal",), record=True
+    )
+    record = every(found)
+    (leaves,) = motion.switches.tolist()
+    return leaves, float(record.times[np.argmax(record.reactions["top.normal"] <= 0.0)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("step", [1e-3, 5e-4, 1.25e-4])
+def test_a_smooth_ladder_leaves_its_wall_once(step: float, tmp_path: Path) -> None:
+    leaves, found = let_go(tmp_path, step)
+    assert found == pytest.approx(leaves, abs=2 * step)
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a seed that the curve of a tip's path uses up")
+def test_a_seed_that_is_used_up_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
+    monkeypatch.setattr(recipe, "_TIP_SEED", replace(recipe._TIP_SEED, value=1e-8))
+    leaves, found = let_go(tmp_path, 5e-4)
+    assert found < leaves - 0.1

@@ -64,6 +64,7 @@ def of(causes: list[Cause], *key: str) -> list[Cause]:
         ("four_bar", "mujoco", "D.gap", ["RK4 + softness of loops", "softness of loops + step"]),
         ("sliding_block.below", "mujoco", "block.x", ["impratio 1e6"]),
         ("growing_force", "pymunk", "block.x", [OURS["law"]]),
+        ("growing_force", "mujoco", "block.x", [OURS["law"]]),
     ],
 )
 def test_causes_that_are_known(
