@@ -1,7 +1,7 @@
 """Case files as they come out of an accident: strategies that damage sound ones."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
@@ -36,7 +36,6 @@ def damaged(draw: st.DrawFn, texts: Sequence[str] = TEXTS) -> bytes:
     return content
 
 
-Accident = Callable[[st.DrawFn, bytes], bytes]
 
 
 def _replaced(draw: st.DrawFn, parts: list[str], other: st.SearchStrategy[str]) -> bytes:
