@@ -164,11 +164,11 @@ BUDGET = {
     "reports": 17700,
     "tests/cases": 3940,
     "tests/engines": 9380,
-    "tests/given": 5970,
+    "tests/given": 6390,
     "tests/reference": 20090,
     "tests/reports": 15910,
     "tests/second": 4320,
-    "tests": 63210,
+    "tests": 63580,
 }
 """Lines of Python that a room may have.
 

@@ -37,7 +37,7 @@ def scenes(draw: st.DrawFn) -> str:
 def test_any_numbers_give_a_motion_or_a_mistake_with_a_place(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(refusal, "MOST", 3.0)  # s: a motion of this scene takes 0.1
+    monkeypatch.setattr(refusal, "LIMIT", 3.0)  # s: a motion of this scene takes 0.1
     file, seen = tmp_path / "case.yaml", Counter[str]()
 
     @examples(60)
