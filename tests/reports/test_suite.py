@@ -62,7 +62,9 @@ def verdicts(report: Report) -> dict[tuple[str, str], Any]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("before", "words"), [(die, "its process ended"), (stumble, "ZeroDivisionError")])
+@pytest.mark.parametrize(
+    ("before", "words"), [(die, "process ended"), (stumble, "ZeroDivisionError")]
+)
 def test_a_lost_run_is_a_row_and_the_others_are_whole(
     trial: Make, moving: Case, before: Callable[[], None], words: str
 ) -> None:
@@ -75,7 +77,9 @@ def test_a_lost_run_is_a_row_and_the_others_are_whole(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("planning", "words"), [(die, "its process ended"), (stumble, "ZeroDivisionError")])
+@pytest.mark.parametrize(
+    ("planning", "words"), [(die, "process ended"), (stumble, "ZeroDivisionError")]
+)
 def test_an_engine_that_is_lost_while_it_plans_is_a_row_too(
     trial: Make, moving: Case, planning: Callable[[], None], words: str
 ) -> None:
