@@ -36,8 +36,6 @@ def damaged(draw: st.DrawFn, texts: Sequence[str] = TEXTS) -> bytes:
     return content
 
 
-
-
 def _replaced(draw: st.DrawFn, parts: list[str], other: st.SearchStrategy[str]) -> bytes:
     i = draw(st.integers(0, len(parts) - 1))
     part = parts[i]
