@@ -45,10 +45,10 @@ def bounded(case: Case) -> Iterator[None]:
     except Endless as endless:
         what = f"the reference {endless}, and that is the limit: "
         place = ("duration",) if case.states is None else ("states", "random")
-        found = case.mistake(place, what + GO_ON)
+        mistake = case.mistake(place, what + GO_ON)
         if endless.among:
-            found = case.mistake(_where(case, endless.among), what + _fewer(endless.among))
-        raise CaseError([found]) from endless
+            mistake = case.mistake(_where(case, endless.among), what + _fewer(endless.among))
+        raise CaseError([mistake]) from endless
     except MemoryError as error:
         more = f" ({error})" if str(error) else ""
         what = (

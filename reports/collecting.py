@@ -47,9 +47,9 @@ class Earlier:
     def ways(self, case: Case, engine: Engine, start: Callable[[], Start]) -> Ways:
         """How the engine runs the case; `start` is called where nobody has asked before."""
         key = self.keys.collected(case, engine) if self.store else ""
-        found = self.store.get(key) if self.store else None
-        if found is not None:
-            return found
+        kept = self.store.get(key) if self.store else None
+        if kept is not None:
+            return kept
         if installed.foreign(engine.name):  # what it does is not this session's end
             answer, why = apart(ways_of, engine, case, start(), most=limit())
             if why:  # it may not do so again

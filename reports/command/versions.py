@@ -67,10 +67,10 @@ def versions(
         warnings.simplefilter("ignore")  # an engine that is broken here may not be asked for
         names = sorted({release.engine for release in releases})
         choose_engines(names, settings, long=allow_long)  # a mistake in own options is found now
-    found = table([*measure(releases, chosen, settings, jobs, allow_long, tell)], cases)
+    rows = table([*measure(releases, chosen, settings, jobs, allow_long, tell)], cases)
     if out is not None:
-        write.write({NAME: found}, out, overwrite=overwrite)
+        write.write({NAME: rows}, out, overwrite=overwrite)
         DONE.append(f"{NAME} is in {out}")
-    say(text(found, shutil.get_terminal_size().columns))
+    say(text(rows, shutil.get_terminal_size().columns))
     if out is not None:
         say(f"written to {out / NAME}")

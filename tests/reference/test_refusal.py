@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.flat import time_to_flat
+from given.closed_motions import time_to_flat
 from given.refused import refused
 from scipy.integrate import solve_ivp
 

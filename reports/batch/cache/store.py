@@ -50,11 +50,11 @@ def usable() -> "Store | None":
 
 def _is_private(place: Path) -> bool:
     """Whether the folder is the user's alone: a pickle runs whatever code its writer wants."""
-    found = place.lstat()
+    status = place.lstat()
     if not hasattr(os, "geteuid"):
-        return stat.S_ISDIR(found.st_mode)
-    shared = stat.S_IMODE(found.st_mode) & 0o077
-    return stat.S_ISDIR(found.st_mode) and found.st_uid == os.geteuid() and not shared
+        return stat.S_ISDIR(status.st_mode)
+    shared = stat.S_IMODE(status.st_mode) & 0o077
+    return stat.S_ISDIR(status.st_mode) and status.st_uid == os.geteuid() and not shared
 
 
 @contextmanager
@@ -118,8 +118,8 @@ class Store:
         with suppress(OSError):  # another process trims too
             for file in os.scandir(self.folder):
                 if _OURS.fullmatch(file.name) and file.is_file(follow_symlinks=False):
-                    found = file.stat(follow_symlinks=False)
-                    entries.append((found.st_mtime, found.st_size, file.path))
+                    status = file.stat(follow_symlinks=False)
+                    entries.append((status.st_mtime, status.st_size, file.path))
         total = 0
         for _, size, path in sorted(entries, reverse=True):
             total += size

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.flat import time_to_flat
+from given.closed_motions import time_to_flat
 from given.otherwise import otherwise
 from given.watched import Oscillator, Plain, Still, Watched, events
 
