@@ -608,6 +608,13 @@ def test_check_and_python_warn_and_refuse_nothing(domino: Path) -> None:
     assert solved(str(domino)).warnings == (known["what"],)
 
 
+@pytest.mark.slow
+def test_run_warns_and_refuses_nothing(domino: Path) -> None:
+    done = textmech("run", domino, "--engine", "pymunk.shipped")
+    assert done.returncode == 0
+    assert "domino: warning: box.upper_left goes 409 mm deep" in done.stdout
+
+
 @pytest.mark.mutant("a corner that goes through the floor is told of none")
 def test_a_warning_that_is_left_out_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(unnamed, "DEEP", math.inf)

@@ -152,7 +152,7 @@ def test_own_settings_that_are_given_as_a_case_are_one_mistake(tmp_path: Path) -
     ],
 )
 def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: str) -> None:
-    """In every command that takes cases, and in Python; beside it nothing else is said of it."""
+    """In Python; beside it nothing else is said of it."""
     file = tmp_path / "model.xml"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(CaseError) as error:
@@ -160,6 +160,18 @@ def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: st
     (mistake,) = error.value.mistakes
     assert mistake.what.startswith(f"is {told}; textmech reads cases as YAML")
     assert ("show CASE --engine mujoco` writes MJCF" in mistake.what) == ("MJCF model" in told)
+
+
+@pytest.mark.slow
+def test_every_command_tells_a_model_as_one(tmp_path: Path) -> None:
+    (tmp_path / "model.xml").write_text("<mujoco/>\n", encoding="utf-8")
+    for words in (
+        "run", "check", "advise", "causes", "show --engine mujoco", "plot --out x.svg",
+        "page --out x.html",
+    ):  # fmt: skip
+        done = textmech(*words.split(), "model.xml", folder=tmp_path)
+        assert done.returncode == 2, words
+        assert done.stderr.startswith("model.xml: is an MJCF model; textmech reads cases as YAML")
 
 
 @pytest.mark.mutant("a model of an engine is read as YAML")

@@ -447,7 +447,7 @@ def test_what_lands_in_the_last_step_has_landed() -> None:
     case = parsed(puck, tail="duration: 0.4\nsamples: 6\n")
     rows = {row.quantity: row for row in judged(case, Pymunk("tuned"))}
     assert rows["hits.count"].error == 0.0
-    assert (rows["hits.time"].error or 0.0) < 1e-3  # found where the step ends
+    assert (rows["hits.time"].error or 0.0) < 1e-3  # s, the step: natively it is found at its end
 
 
 # What is read at once after an impact that an engine spreads: its row says how to read it.

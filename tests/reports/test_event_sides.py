@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given import scenes
 from given.otherwise import otherwise
 from given.scenes import parsed, scene
 from scipy.optimize import brentq
@@ -13,6 +14,7 @@ from textmech.cases.case import Case, Event
 from textmech.cases.fields.event import Rule
 from textmech.cases.mistake import CaseError
 from textmech.cases.scene.observe import observe
+from textmech.cases.scene.quantity import table
 from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reference.certificate import errors
 from textmech.reference.mechanism.modes import mechanism, mode_selection
@@ -300,6 +302,29 @@ def test_what_comes_once_more_at_the_last_instant_is_a_mistake(
 
 
 # All shipped cases, and random ones.
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name, case in scenes.SHIPPED.items() if case.events])
+def test_two_rules_of_a_quantity_of_a_shipped_case_share_no_instant(name: str) -> None:
+    case, record = scenes.EVERY[name], scenes.solved(name).trajectory.record
+    assert record is not None
+    asked = 0
+    for quantity, about in table(case.scene).items():
+        if about.field not in ("work", "attitude") and is_recorded(case, record, quantity):
+            assert shared(case, record, quantity) == set()
+            asked += 1
+    assert asked >= 10
+
+
+def is_recorded(case: Case, record: Trajectory, name: str) -> bool:
+    """Whether the reference's record has the quantity: accelerations it has not."""
+    try:
+        observe(case.scene, record, name)
+    except KeyError:
+        return False
+    return True
+
 
 MIRRORED = """\
 scene:
