@@ -123,11 +123,11 @@ def run(count: int, seed: int, jobs: int) -> Iterator[dict[str, Any]]:
             threads[-1].start()
         for thread in threads:
             thread.join()
-        number = {item.job_id: i for i, item in enumerate(drawn, 1)}
+        number = {str(item.job_id): i for i, item in enumerate(drawn, 1)}
         for clone in clones:
             with use_db(str(clone.parent / "drawn.sqlite"), WorkDB.Mode.open) as db:
-                places = {item.job_id: item.mutations[0] for item in db.work_items}
-                for job_id, result in db.results:
+                places = {str(item.job_id): item.mutations[0] for item in db.work_items}
+                for job_id, result in ((str(key), each) for key, each in db.results):
                     place, (word, seen_by) = places[job_id], outcome(result)
                     yield {
                         "seed": seed, "number": number[job_id], "file": str(place.module_path),
