@@ -1,6 +1,6 @@
 """The reports: comparing, judging, writing, the command, the plug-in, and the committed tables.
 
-For Python: `from textmech.reports import advise, load, solve, run`, explained in `interface`.
+For Python: `from textmech.reports import advise, load, solve, run`, explained in `front.interface`.
 """
 
 import time
@@ -10,10 +10,10 @@ from typing import Any
 BEGUN = time.time()  # s: a file of code that is newer than this is not the code that runs
 PUBLIC = {
     "CaseError": "..cases.mistake",
-    "advise": ".interface",
-    "load": ".interface",
-    "run": ".interface",
-    "solve": ".interface",
+    "advise": ".front.interface",
+    "load": ".front.interface",
+    "run": ".front.interface",
+    "solve": ".front.interface",
 }
 """By name where it is: imported when it is asked for, as pytest imports this for its plug-in."""
 

@@ -33,10 +33,10 @@ SMOKE = (
     "-m", "not slow", "tests/cases/test_units.py", "tests/cases/test_mistakes.py",
     "tests/reference/integrators/test_accuracy.py::test_radau_conditions",
     "tests/reference/systems/test_closed_forms.py::test_no_number_is_complex",
-    "tests/reports/batch/test_cache.py", "tests/reports/page/test_rows.py",
-    "tests/reports/test_cli.py::test_a_mistake_outweighs_a_verdict",
-    "tests/reports/test_replace.py",
-    "tests/reports/test_readme_parts.py", "tests/reports/test_write.py",
+    "tests/reports/runs/test_cache.py", "tests/reports/front/page/test_rows.py",
+    "tests/reports/front/test_cli.py::test_a_mistake_outweighs_a_verdict",
+    "tests/reports/tables/test_replace.py",
+    "tests/reports/front/test_readme_parts.py", "tests/reports/tables/test_write.py",
 )  # fmt: skip
 LINES = 40  # of what went wrong
 

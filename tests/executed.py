@@ -49,8 +49,9 @@ Executed = Mapping[str, frozenset[str]]
 
 def executed(file: Path) -> tuple[Executed, float]:
     """What one case file executes here and now, and the CPU time [s] that it takes."""
-    from textmech.reports.batch import suite
-    from textmech.reports.batch.selection import choose_cases, choose_engines
+    from textmech.reports.runs import suite
+    from textmech.reports.runs.request import Request
+    from textmech.reports.runs.selection import choose_cases, choose_engines
 
     seen = set[Any]()
 
@@ -62,7 +63,7 @@ def executed(file: Path) -> tuple[Executed, float]:
     began = time.process_time()
     threading.setprofile(profile)
     with ThreadPoolExecutor(1) as here:
-        suite.measure(cases, engines, progress=lambda *_: None, executor=here)
+        suite.measure(Request(cases, engines, executor=here))
     threading.setprofile(None)  # type: ignore[arg-type]
     took, found = time.process_time() - began, dict[str, set[str]]()
     for code in seen:

@@ -23,7 +23,7 @@ from typing import Any
 
 import pandas as pd
 
-from textmech.reports.data.row import MUTATION
+from textmech.reports.tables.row import MUTATION
 
 ROOT = Path(__file__).parents[1]
 NAME = "textmech"  # of the folder of a clone: as the package is called, so that it is imported

@@ -15,8 +15,8 @@ from typing import Any
 import pandas as pd
 import pytest
 
-from textmech.reports.data.row import MUTANTS
-from textmech.reports.output import write
+from textmech.reports.tables import write
+from textmech.reports.tables.row import MUTANTS
 
 ROOT = Path(__file__).parents[1]
 MARK = "mutant"

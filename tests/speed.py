@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from textmech.reports.data.row import SPEED
+from textmech.reports.tables.row import SPEED
 
 ROOT = Path(__file__).parents[1]
 LIST = ROOT / "reports" / SPEED

@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SHORT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 TEXT = SHORT + (ROOT / "tests" / "README.md").read_text(encoding="utf-8")
-# The dataclasses of reports/data/row.py.
+# The dataclasses of reports/tables/row.py.
 ROWS = {"Comparison", "Rungs", "StepError", "Certificate", "Instant", "Cause", "Advice"}
 BOUNDS = {"forward", "backward"}  # the numbers of a law of dry friction
 
@@ -56,7 +56,7 @@ def test_every_path_exists() -> None:
 @pytest.mark.slow
 def test_rows_are_filled_where_it_says() -> None:
     filled = {file for file, tree in trees().items() if makes(tree)}
-    assert filled | {"reports/data/row.py"} == listed("a column of a report")
+    assert filled | {"reports/tables/row.py"} == listed("a column of a report")
 
 
 @pytest.mark.slow

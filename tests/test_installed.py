@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 from given.swing import SWING
 
-from textmech.reports.output import write
-from textmech.reports.output.diff.folder import NOT_PACKED
+from textmech.reports.tables import write
+from textmech.reports.tables.diff.folder import NOT_PACKED
 
 ROOT = Path(__file__).parents[1]
 OURS = ("cases", "reference", "engines", "reports")
@@ -145,7 +145,7 @@ def test_it_is_asked_from_python(python: Path, project: Path) -> None:
 
 @pytest.mark.slow
 def test_a_full_run_would_write_where_the_user_stands(python: Path, project: Path) -> None:
-    asked = "from textmech.reports.output import write; print(write.by_default())"
+    asked = "from textmech.reports.tables import write; print(write.by_default())"
     assert run(python, "-c", asked, cwd=project).stdout == "textmech-reports\n"
 
 
@@ -162,7 +162,7 @@ def test_the_plug_in_imports_nothing_of_ours_until_a_case_is_collected(
     )
     done = run(python, "-m", "pytest", "-q", "-s", "test_mine.py", cwd=project)
     imported = done.stdout.partition("imported:")[2].split()
-    assert imported == ["textmech.reports", "textmech.reports.pytest_plugin"]
+    assert imported == ["textmech.reports", "textmech.reports.front.pytest_plugin"]
 
 
 BALL = """\

@@ -15,12 +15,12 @@ import pytest
 from given.report_folders import report
 from given.tree import TESTS
 
-from textmech.reports.data.row import MUTANTS, OF_NO_RUN, Comparison
-from textmech.reports.output import write
-from textmech.reports.output.diff.columns import Rule
-from textmech.reports.output.diff.compare import difference
-from textmech.reports.output.diff.folder import opened
-from textmech.reports.page.folder import folder
+from textmech.reports.front.page.folder import folder
+from textmech.reports.tables import write
+from textmech.reports.tables.diff.columns import Rule
+from textmech.reports.tables.diff.compare import difference
+from textmech.reports.tables.diff.folder import opened
+from textmech.reports.tables.row import MUTANTS, OF_NO_RUN, Comparison
 
 COMMITTED = write.HERE / MUTANTS
 LONGEST = 110  # letters of a mistake: it is a name, and no explanation

@@ -13,8 +13,8 @@ import pytest
 from given.command import textmech
 
 from textmech import engines
-from textmech.reports.cli import command
-from textmech.reports.output import write
+from textmech.reports.front.cli import command
+from textmech.reports.tables import write
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = (".", "cases", "cases/questions", "reference", "engines", "reports", "tests")

@@ -3,9 +3,11 @@
 The folders and files within every folder import one another along a tree.
 """
 
-from collections import defaultdict
+from collections import Counter, defaultdict
+from collections.abc import Iterable
 from graphlib import CycleError, TopologicalSorter
 from itertools import takewhile
+from pathlib import Path
 
 import pytest
 from given.tree import FILES, imported, module
@@ -67,3 +69,20 @@ def test_no_engine_knows_another() -> None:
         if own in engines:
             others = tuple(f"{engine}." for engine in engines - {own})
             assert not [name for name in imported(file) if f"{name}.".startswith(others)], file
+
+
+ROOMS = 10  # folders of a folder: as many as a newcomer can keep in mind
+
+
+def crowded(folders: Iterable[Path]) -> set[Path]:
+    """Returns the folders with more than ROOMS folders."""
+    return {
+        above for above, rooms in Counter(each.parent for each in folders).items() if rooms > ROOMS
+    }
+
+
+@pytest.mark.mutant("an eleventh room in a folder")
+def test_a_folder_has_few_rooms() -> None:
+    folders = {file.parent for file in FILES}
+    assert crowded(folders) == set()
+    assert crowded({*folders, *(Path("a", str(n)) for n in range(ROOMS + 1))}) == {Path("a")}

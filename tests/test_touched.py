@@ -18,7 +18,7 @@ def mirrored(name: str) -> set[str]:
         ("cases/scene/quantity.py", "tests/cases"),
         ("reference/mechanism/modes/mode.py", "tests/reference/mechanism"),
         ("engines/pymunk/callbacks/friction.py", "tests/engines/pymunk"),  # no folder is its own
-        ("reports/compare/judge/verdict.py", "tests/reports"),
+        ("reports/compare/judge/verdict.py", "tests/reports/compare"),
         ("cases/four_bar.yaml", "tests/cases"),
     ],
 )
@@ -50,8 +50,8 @@ def test_what_differs_is_printed_once_and_by_kind(
 ) -> None:
     changed = [
         "README.md",
-        "reports/batch/cache/key.py",
-        "reports/batch/cache/gone.py",
+        "reports/runs/cache/key.py",
+        "reports/runs/cache/gone.py",
         "tests/test_rooms.py",
     ]
     monkeypatch.setattr(touched, "changed", lambda: [Path(name) for name in changed])
@@ -61,11 +61,11 @@ def test_what_differs_is_printed_once_and_by_kind(
     assert set(tests) == {
         *touched.ALWAYS,
         "tests/test_rooms.py",
-        *mirrored("reports/batch/cache/key.py"),
-        *touched.cases([Path("reports/batch/cache/key.py")]),
+        *mirrored("reports/runs/cache/key.py"),
+        *touched.cases([Path("reports/runs/cache/key.py")]),
     }
     touched.main("--files")
-    assert capsys.readouterr().out.split() == ["reports/batch/cache/key.py", "tests/test_rooms.py"]
+    assert capsys.readouterr().out.split() == ["reports/runs/cache/key.py", "tests/test_rooms.py"]
 
 
 def test_where_nothing_differs_there_is_still_something_to_check(

@@ -15,17 +15,17 @@ from ...cases.case import Case
 from ...cases.language.check.work import LIMIT
 from ...engines.engine import Claims, Diverged, Engine, Paced, Plan, Refusal, Tunable, lacking
 from ...reference.solve import solve
-from ..data.row import DEVIATES, REFUSED
-from ..system.limit import limit
-from ..system.table_text import why
+from ..tables.row import DEVIATES, REFUSED
 from .judge.compare import answered
 from .likely_mistakes import ROUGH, Compared, explained, factor, shifted
 from .trial import states
 from .trial.answers import BadAnswer, moved
 from .trial.audit import EQUAL, audited
 from .trial.ladder import judged_step, sampled, wanted_reactions
+from .trial.limit import limit
 from .trial.run import climbed
 from .trial.start import first
+from .trial.table_text import why
 from .trial.trial import Trial, with_room
 from .trial.trial import ways as ways_of
 from .trial.work import pace

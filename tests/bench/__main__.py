@@ -9,10 +9,10 @@ import pandas as pd
 
 from textmech.cases.case import Case
 from textmech.engines.engine import Engine
-from textmech.reports import cli
-from textmech.reports.batch.selection import choose_cases, choose_engines
-from textmech.reports.command.options import FAILED, named_cases, named_engines
-from textmech.reports.show.console import say, tell
+from textmech.reports.front import cli
+from textmech.reports.front.command.options import FAILED, named_cases, named_engines
+from textmech.reports.front.show.console import say, tell
+from textmech.reports.runs.selection import choose_cases, choose_engines
 
 from . import adapters
 from .reference import integrators, scenes

@@ -34,12 +34,12 @@ from textmech.engines.pymunk.adapter.script import before_each, building
 from textmech.engines.pymunk.stepping.run import COLD
 from textmech.engines.pymunk.stepping.scene import build
 from textmech.engines.signal import factor
-from textmech.reports.batch.selection import choose_cases
 from textmech.reports.compare.trial.answers import plans
 from textmech.reports.compare.trial.ladder import wanted_reactions
 from textmech.reports.compare.trial.start import assembled
 from textmech.reports.compare.trial.states import moving
-from textmech.reports.system.table_text import why
+from textmech.reports.compare.trial.table_text import why
+from textmech.reports.runs.selection import choose_cases
 
 from .row import Row, Work, in_turn, ratio
 

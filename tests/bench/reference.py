@@ -21,7 +21,7 @@ from textmech.reference.motion.stuck import slope
 from textmech.reference.solve import solve
 from textmech.reference.system import Mode
 from textmech.reference.systems import SYSTEMS
-from textmech.reports.batch.selection import choose_cases
+from textmech.reports.runs.selection import choose_cases
 
 from .row import Row, Work, in_turn, ratio
 

@@ -14,7 +14,7 @@ from textmech.cases.find import shipped
 from .row import Row
 
 UNIT = "import numpy"  # what nothing here does without: a measure of the machine
-COMMAND = "from textmech.reports.start import main; main()"
+COMMAND = "from textmech.reports.front.start import main; main()"
 # s, where they were promised; elsewhere the ratio tells. Of check a third and more is the
 # reference's own work.
 BOUNDS = {"--help": 0.2, "list": 0.5, "show": 0.5, "check": 0.8, "import": 0.5}

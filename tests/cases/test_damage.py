@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from textmech.cases.fields.number import LARGEST, SMALLEST, NumberMistake, amount
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError, plain
-from textmech.reports.batch.selection import HANDWRITTEN
+from textmech.reports.runs.selection import HANDWRITTEN
 
 N = 150
 often = examples(N)

@@ -11,7 +11,7 @@ from ruamel.yaml import YAML
 from textmech import engines
 from textmech.engines.engine import Engine, Plan, Tunable
 from textmech.engines.knobs import Knob, as_text, merged, short_value
-from textmech.reports.data.user_settings import read_settings
+from textmech.reports.tables.user_settings import read_settings
 
 TUNED = [
     (name, engine)

@@ -13,7 +13,7 @@ from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Engine, Plan, Tunable
 from textmech.engines.knobs import Options, as_text, merged
 from textmech.reports.compare.trial.ladder import judged_step, wanted_reactions
-from textmech.reports.data.user_settings import read_settings
+from textmech.reports.tables.user_settings import read_settings
 
 RUNS = [
     (name, engine)

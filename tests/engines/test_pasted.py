@@ -21,12 +21,13 @@ from given.planning import begun
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve
-from textmech.reports.batch.advice.advice_rows import Advised, Requirement
-from textmech.reports.batch.advice.advise import advised
-from textmech.reports.batch.cache.store import usable
-from textmech.reports.batch.selection import choose_engines
-from textmech.reports.show.advice import advice_lines
-from textmech.reports.show.readme import listed_questions as listed
+from textmech.reports.front.show.advice import advice_lines
+from textmech.reports.front.show.readme import listed_questions as listed
+from textmech.reports.runs.cache.store import usable
+from textmech.reports.runs.request import Request
+from textmech.reports.runs.selection import choose_engines
+from textmech.reports.search.advice.advice_rows import Advised, Requirement
+from textmech.reports.search.advice.advise import advised
 
 pytestmark = pytest.mark.slow
 
@@ -37,7 +38,7 @@ def handed_over(name: str, engine: str) -> list[str]:
     """The texts below `to paste`, one for each recipe."""
     asked, chosen = Requirement(None, 2.0), choose_engines([engine], ["shipped"])
     cases = [scenes.EVERY[name]]
-    with advised(cases, chosen, asked, progress=lambda *_: None, jobs=1, store=usable()) as (one,):
+    with advised(Request(cases, chosen, jobs=1, store=usable()), asked) as (one,):
         return list(below(one))
 
 

@@ -17,7 +17,7 @@ from given.forked import TOLD, forked, runs
 
 from textmech import engines
 from textmech.engines import probe
-from textmech.reports.batch.selection import choose_engines
+from textmech.reports.runs.selection import choose_engines
 
 SOUND = """\
 from dataclasses import dataclass
@@ -272,7 +272,7 @@ def test_only_what_is_asked_for_is_imported(folder: Path) -> None:
     asked = (
         "import sys\n"
         "from pathlib import Path\n"
-        "from textmech.reports.batch.selection import choose_cases, choose_engines\n"
+        "from textmech.reports.runs.selection import choose_cases, choose_engines\n"
         "choose_cases(['ball.yaml'])\n"
         "print('before:', *({'mujoco', 'pymunk', 'failing_engine'} & set(sys.modules)))\n"
         "print([e.setting for e in choose_engines(['pymunk'], [])])\n"

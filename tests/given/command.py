@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from textmech.reports import cli
-from textmech.reports.command import done
-from textmech.reports.show import progress
-from textmech.reports.system import termination as ending
+from textmech.reports.front import cli
+from textmech.reports.front.command import done
+from textmech.reports.front.show import progress
+from textmech.reports.runs.processes import termination as ending
 
 NEW = """\
 title: A bar that hangs on a cart
@@ -58,7 +58,7 @@ def _argument(word: object) -> str:
 def process(*words: object, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     """The command as a user's shell starts it."""
     return subprocess.run(
-        [sys.executable, "-m", "textmech.reports.cli", *map(str, words)],
+        [sys.executable, "-m", "textmech.reports.front.cli", *map(str, words)],
         capture_output=True,
         text=True,
         cwd=folder,

@@ -14,9 +14,9 @@ from typing import Any
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Trajectory
 from textmech.engines.engine import Plan, Start
-from textmech.reports import cli
-from textmech.reports.batch import selection
-from textmech.reports.system import termination as ending
+from textmech.reports.front import cli
+from textmech.reports.runs import selection
+from textmech.reports.runs.processes import termination as ending
 
 CASE = """\
 title: A free body that moves at constant velocity

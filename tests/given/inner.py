@@ -6,7 +6,7 @@ import mujoco  # noqa: F401  # the fork has it, and need not import it
 import pymunk  # noqa: F401
 import pytest
 
-from textmech.reports.batch import session  # noqa: F401
+from textmech.reports.front import session  # noqa: F401
 
 from .forked import forked
 

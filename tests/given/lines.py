@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
-from textmech.reports.data.row import AGREES, BEYOND, Comparison, Rungs
+from textmech.reports.tables.row import AGREES, BEYOND, Comparison, Rungs
 
 ROW = Comparison(
     case="swing",

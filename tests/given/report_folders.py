@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from textmech.reports.batch.suite import Report
-from textmech.reports.data.row import Cause, Certificate, Comparison, Instant, Rungs, StepError
-from textmech.reports.output import write
+from textmech.reports.runs.suite import Report
+from textmech.reports.tables import write
+from textmech.reports.tables.row import Cause, Certificate, Comparison, Instant, Rungs, StepError
 
 ROW = Comparison(
     case="swing", theme="pins", source="(2.44)", engine="mujoco", version="4.0.0", setting="tuned",

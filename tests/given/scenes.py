@@ -16,8 +16,8 @@ from textmech.cases.load import load
 from textmech.cases.mistake import CaseError, Mistake
 from textmech.reference.solve import Solution, solve
 from textmech.reference.solve import mechanism as generated
-from textmech.reports.batch.cache.key import Keys
-from textmech.reports.batch.cache.store import usable
+from textmech.reports.runs.cache.key import Keys
+from textmech.reports.runs.cache.store import usable
 
 EVERY = {case.name: case for path in shipped().values() for case in load(path)}
 SHIPPED = {name: case for name, case in EVERY.items() if case.states is None}

@@ -14,14 +14,15 @@ from textmech.cases.load import load
 from textmech.cases.scene import Scene
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Choice, Diverged, Plan, Realised, Refusal, Start
-from textmech.reports.batch import suite
-from textmech.reports.batch.cache.store import usable
-from textmech.reports.batch.selection import choose_cases, choose_engines
-from textmech.reports.batch.suite import Report
 from textmech.reports.compare.trial.start import first
 from textmech.reports.compare.trial.trial import Trial, ways
-from textmech.reports.pytest_plugin import CaseItem, measured
-from textmech.reports.system import pool
+from textmech.reports.front.pytest_plugin import CaseItem, measured
+from textmech.reports.runs import suite
+from textmech.reports.runs.cache.store import usable
+from textmech.reports.runs.processes import pool
+from textmech.reports.runs.request import Request
+from textmech.reports.runs.selection import choose_cases, choose_engines
+from textmech.reports.runs.suite import Report
 
 TEXT = """\
 title: A free body that moves at constant velocity
@@ -200,4 +201,4 @@ def report(request: pytest.FixtureRequest) -> Report:
     if all(f"{c.name}-{e.name}.{e.setting}" in pairs for c in cases for e in engines):
         return measured(request.session)
     jobs, store = pool.workers(), usable()
-    return suite.measure(cases, engines, jobs=jobs, progress=lambda *_: None, store=store)
+    return suite.measure(Request(cases, engines, jobs=jobs, store=store))

@@ -1,6 +1,6 @@
 """Why there is a difference, as far as a held ladder tells."""
 
-from ...data import row as of
+from ...tables import row as of
 from .convergence import FALLEN, Convergence
 
 STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model

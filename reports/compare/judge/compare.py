@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....engines import SETTINGS
 from ....engines.engine import Refusal
-from ...data.row import (
+from ...tables.row import (
     AGREES,
     ANOTHER,
     CRASHED,
@@ -24,12 +24,12 @@ from ...data.row import (
     Rungs,
     StepError,
 )
-from ...system.table_text import why
 from ..trial.audit import EQUAL, audit
 from ..trial.ladder import Ladder
 from ..trial.phases import Begun, Phases
 from ..trial.run import Climbed, Samples
 from ..trial.simulate import Runs, fairly, simulate
+from ..trial.table_text import why
 from ..trial.trial import Trial, judged_names
 from . import instants, metric
 from .cause import cause

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....cases.trajectory import Array
-from ...data.row import ANOTHER, EXACT, FALLS, INSTANTS, STAYS, TEXTBOOK, UNSETTLED, WITHIN
+from ...tables.row import ANOTHER, EXACT, FALLS, INSTANTS, STAYS, TEXTBOOK, UNSETTLED, WITHIN
 from . import metric
 
 TEXTBOOK_WITHIN = 3.0  # uncertainties between limit and reference

@@ -8,7 +8,7 @@ import numpy as np
 from ....cases.case import Case
 from ....cases.scene.quantity import at_event
 from ....cases.trajectory import Array, Trajectory
-from ...data.row import REFUSED, UNSETTLED, Comparison, Instant
+from ...tables.row import REFUSED, UNSETTLED, Comparison, Instant
 from ..events.times import reference_events
 from ..trial.ladder import Ladder
 from ..trial.phases import Begun

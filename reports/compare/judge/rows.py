@@ -3,7 +3,7 @@
 from typing import Any
 
 from ....cases.theme import themes
-from ...data.row import Comparison, Rungs, StepError
+from ...tables.row import Comparison, Rungs, StepError
 from ..trial.ladder import Ladder
 from ..trial.trial import Trial
 from .convergence import Convergence

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from ....reference.solve import Solution
-from ...data.row import FAILS
+from ...tables.row import FAILS
 from .compare import Outcome
 
 POSSIBLE = "modes possible"

@@ -2,8 +2,8 @@
 
 from ....cases.case import Deviation
 from ....engines.engine import Engine
-from ...data import pins
-from ...data.row import AGREES, ANOTHER, BEYOND, CHANGED, DEVIATES, FAILS
+from ...tables import pins
+from ...tables.row import AGREES, ANOTHER, BEYOND, CHANGED, DEVIATES, FAILS
 from ..trial.trial import Trial
 from .convergence import Convergence
 

@@ -24,7 +24,7 @@ from ....engines.engine import (
     Tunable,
 )
 from ....engines.knobs import Knob, Options
-from ...system.table_text import spelled
+from .table_text import spelled
 
 WAYS = get_args(Realised)
 AROUND = 2.0  # steps: a record may begin between two, and end with one that is behind the samples

@@ -13,12 +13,12 @@ from ....cases.scene.observe import motion_of, observe
 from ....cases.scene.quantity import at_event, told_by
 from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Claims, Diverged, Engine, Plan, Start
-from ...system.limit import limit
-from ...system.table_text import spelled
 from ..events.states import engine_states
 from ..events.times import Known, engine_events
 from .answers import claimed, moved
 from .ladder import wanted_reactions
+from .limit import limit
+from .table_text import spelled
 from .work import pace
 
 Samples = Mapping[str, Array]

@@ -6,9 +6,9 @@ from ....cases.case import Case
 from ....cases.mistake import CaseError
 from ....cases.trajectory import Array
 from ....engines.engine import Claims, Engine, Plan, Refusal, Start
-from ...system.table_text import spelled, why
 from .answers import by_quantity
 from .run import Rung
+from .table_text import spelled, why
 from .trial import Trial, planned
 
 SILENT = "adapter: it offers no answers about states"

@@ -13,12 +13,12 @@ from ....cases.scene.observe import observe
 from ....cases.scene.quantity import Quantity, at_event, at_events, event_quantities
 from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Engine, Plan, Realised, Refusal, Start
-from ...system.table_text import why
 from ..events.states import reference_states
 from ..events.timing import Timing, timing
 from .answers import plans
 from .ladder import judged_step
 from .start import first
+from .table_text import why
 
 NOTHING_OF_ITS_OWN = "engine: it has nothing of its own for this; see the rows of laws and drivers"
 SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they are whole numbers

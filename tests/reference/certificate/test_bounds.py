@@ -23,7 +23,7 @@ from textmech.reference.solve import solve
 from textmech.reference.states import answer
 from textmech.reference.system import Array, Only
 from textmech.reference.systems import written
-from textmech.reference.systems.particles.spring_mass_damper import SpringMassDamper
+from textmech.reference.systems.bodies.spring_mass_damper import SpringMassDamper
 from textmech.reference.systems.pendula.bar_pendulum import BarPendulum
 
 Patch = pytest.MonkeyPatch

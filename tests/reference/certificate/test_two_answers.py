@@ -22,7 +22,7 @@ from textmech.reference.motion.follow import Followed, either, follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Load, Mass, Only, System
 from textmech.reference.systems import written
-from textmech.reference.systems.particles.spring_mass_damper import SpringMassDamper
+from textmech.reference.systems.bodies.spring_mass_damper import SpringMassDamper
 from textmech.reference.systems.pendula.bar_pendulum import BarPendulum
 
 Patch = pytest.MonkeyPatch

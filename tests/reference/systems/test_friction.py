@@ -15,9 +15,9 @@ from textmech.reference.laws.friction import Dry, smooth
 from textmech.reference.motion.follow import follow
 from textmech.reference.motion.zeno import ZenoError
 from textmech.reference.system import Array, Guard, System
+from textmech.reference.systems.bodies.drag_stops import Slowing
 from textmech.reference.systems.friction import stick_slip
 from textmech.reference.systems.friction.dynamometer import Dynamometer
-from textmech.reference.systems.particles.drag_stops import Slowing
 
 # What ends a mode of (2.89), as a table: with four bounds that all differ, none can stand in.
 

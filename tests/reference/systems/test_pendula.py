@@ -18,7 +18,7 @@ from textmech.reference.mechanism.modes import unilateral
 from textmech.reference.motion.follow import Followed, follow
 from textmech.reference.solve import solve
 from textmech.reference.system import System
-from textmech.reference.systems.particles import spring_mass_damper
+from textmech.reference.systems.bodies import spring_mass_damper
 from textmech.reference.systems.pendula import stopped_pendulum
 from textmech.reference.systems.pendula.ball_on_rope import BallOnRope
 from textmech.reference.systems.pendula.stopped_pendulum import StoppedPendulum

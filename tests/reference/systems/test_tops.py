@@ -19,8 +19,8 @@ from given.spatial import SPATIAL, closed, example, only, states
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, Mode, Only
+from textmech.reference.systems.bodies.torque_free import Polhode
 from textmech.reference.systems.elliptic import Amplitude, amplitude, first, third
-from textmech.reference.systems.tops.torque_free import Polhode
 
 # Elliptic functions and integrals of the closed forms, by another library with more digits.
 

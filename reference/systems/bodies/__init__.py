@@ -1,0 +1,1 @@
+"""Particles and bodies alone, in the plane and in space: springs, drag, fields, tops."""

@@ -1,1 +1,0 @@
-"""One particle: springs, drag, fields."""

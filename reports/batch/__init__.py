@@ -1,1 +1,0 @@
-"""Many comparisons: which of them, what is stored, the searches for causes and for advice."""

@@ -1,0 +1,159 @@
+"""`textmech check`."""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import click
+
+from ....cases.mistake import CaseError, Mistake
+from ..show.console import say
+from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
+
+if TYPE_CHECKING:
+    from ....cases.case import Case
+    from ....engines.engine import Engine
+    from ....reference.certificate.agreement import Check
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A file's cases by name, its mistakes, and (case, check) of each check that does not hold.
+
+    otherwise: sentences, of cases whose hand-written system moves as another scene would. warnings:
+    (case, sentence) of what a motion shows that is no mistake, and most likely not meant.
+    """
+
+    file: str
+    cases: Sequence[str]
+    mistakes: Sequence[Mistake]
+    broken: Sequence[tuple[str, "Check"]]
+    otherwise: Sequence[str] = ()
+    warnings: Sequence[tuple[str, str]] = ()
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@processes
+@as_json
+@allow_long
+def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
+    """All mistakes of case files, and checks of their references; no engine is run."""
+    from ...runs.processes.pool import workers
+    from ...runs.selection import choose_engines
+    from ..show.document import write
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
+        engines = choose_engines([], [])
+    found = _checked(files, engines, jobs or workers(), long=allow_long)
+    mistakes = [mistake for one in found for mistake in one.mistakes]
+    code = BAD_INPUT if mistakes else FAILED if any(one.broken for one in found) else 0
+    if wants_json:
+        write({"files": [_document(one) for one in found], "exit_code": code})
+        raise click.exceptions.Exit(code)
+    for one in found:
+        for line in _lines(one):
+            say(line)
+    if mistakes:
+        raise CaseError(mistakes)
+    raise click.exceptions.Exit(code)
+
+
+def _checked(
+    files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
+) -> list[Checked]:
+    """Each of the files; solved in processes of their own, each with its share of the memory."""
+    from ...compare.trial.work import too_long
+    from ...runs.processes.pool import Died, local, spread
+    from ...runs.selection import choose_cases
+    from ..show.progress import progress
+
+    found: dict[int, Checked] = {}
+    tasks: dict[int, _Task] = {}
+    for place, file in enumerate(files):
+        try:
+            cases = choose_cases([file], long=long)
+            if wrong := too_long(cases, engines):
+                raise CaseError(wrong)
+            tasks[place] = _Task(file, cases)
+        except CaseError as error:
+            found[place] = Checked(file, [], error.mistakes, [])
+    if tasks:
+        places = list(tasks)
+        alone = len(files) == 1  # no file is done before it
+        with progress(quiet=alone) as told, local(min(jobs, len(tasks))) as working:
+            told.watch(working)
+            for index, one in spread(_solved, list(tasks.values()), working):
+                file = tasks[place := places[index]].name
+                if isinstance(one, Died):
+                    why = Mistake(file, 0, 0, "", f"could not be checked: {one.because}")
+                    one = Checked(file, [], [why], [])
+                found[place] = one
+                told("files", len(found), len(files), file, len(found) / len(files))
+    return [found[place] for place in range(len(files))]
+
+
+@dataclass(frozen=True)
+class _Task:
+    """A file, by its name, and its cases."""
+
+    name: str
+    cases: "Sequence[Case]"
+
+
+def _solved(task: _Task) -> Checked:
+    """Solves a file's cases: finds the mistakes and failed checks that only references show."""
+    from ....reference.solve import solve
+    from ...compare.events.states import mistaken
+    from ...compare.judge.uncertified import otherwise
+    from ...compare.judge.unintended import unintended
+
+    file, cases = task.name, task.cases
+    try:
+        solved = [(case, solve(case)) for case in cases]
+    except CaseError as error:
+        return Checked(file, [], error.mistakes, [])
+    return Checked(
+        file,
+        [case.name for case in cases],
+        [mistake for case, solution in solved for mistake in mistaken(case, solution.trajectory)],
+        [(case.name, c) for case, solution in solved for c in solution.checks if not c.holds],
+        [what for _, solution in solved if (what := otherwise(solution).rstrip("; "))],
+        [
+            (case.name, what)
+            for case, solution in solved
+            for what in unintended(case, solution.trajectory)
+        ],
+    )
+
+
+def _lines(one: Checked) -> Iterator[str]:
+    for what in dict.fromkeys(one.otherwise):
+        yield f"{one.file}: FAILS: {what}"
+    for _, broken in one.broken:
+        numbers = f"{broken.difference:.2e} is above {broken.bound:.1e}"
+        yield f"{one.file}: FAILS: the reference's {broken.name}: {numbers}"
+    for case, what in one.warnings:
+        variant = f" {case}:" if len(one.cases) > 1 else ""
+        yield f"{one.file}: warning:{variant} {what}"
+    if not (one.mistakes or one.broken):
+        many = "s" if len(one.cases) > 1 else ""
+        yield f"{one.file}: {len(one.cases)} case{many}, no mistakes"
+
+
+def _document(one: Checked) -> dict[str, object]:
+    from ..show.document import mistakes
+
+    return {
+        "file": one.file,
+        "cases": list(one.cases),
+        "mistakes": mistakes(one.mistakes),
+        "fails": [
+            {"case": case, "check": c.name, "difference": c.difference, "bound": c.bound}
+            for case, c in one.broken
+        ],
+        "because": [*dict.fromkeys(one.otherwise)],
+        "warnings": [{"case": case, "what": what} for case, what in one.warnings],
+    }

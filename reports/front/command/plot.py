@@ -1,0 +1,98 @@
+"""`textmech plot`."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ....cases.mistake import CaseError, nearest
+from ...tables.row import FAILS
+from ..show.console import say
+from .done import DONE
+from .looking import looked_at, named
+from .options import allow_long, named_engines, overwrite
+
+if TYPE_CHECKING:
+    from ...runs.suite import Report
+
+KINDS = (".png", ".svg")
+
+
+@click.command()
+@click.argument("case")
+@click.option("--quantity", metavar="Q", help="As the case names it; by default the worst one.")
+@named_engines()
+@click.option(
+    "-o",
+    "--out",
+    "file",
+    type=click.Path(dir_okay=False, path_type=Path),
+    required=True,
+    metavar="FILE",
+    help="Where to draw it: a .png, or an .svg with text that stays text.",
+)
+@overwrite
+@allow_long
+def plot(
+    case: str,
+    quantity: str | None,
+    names: tuple[str, ...],
+    file: Path,
+    overwrite: bool,
+    allow_long: bool,
+) -> None:
+    """One case as a picture: its mechanism, a quantity in its tube, its error, its ladder.
+
+    \b
+      textmech plot four_bar -o four_bar.png
+      textmech plot my_case.yaml --quantity rod.angle --engine mujoco -o rod.svg
+    """
+    if file.suffix.lower() not in KINDS:
+        raise click.UsageError(f"{file.name} is no picture that can be drawn: {' or '.join(KINDS)}")
+    if not file.parent.is_dir():
+        raise click.UsageError(f"there is no folder {file.parent}")
+    from ...tables.ownership import unasked
+    from ..page.motions import motions
+    from ..page.paint import save
+    from ..page.picture import picture
+
+    unasked(file.parent, [file.name], overwrite=overwrite)
+    _one(case, allow_long)
+    report = looked_at(named([case], names, long=allow_long))
+    if report.mistakes:
+        raise CaseError(report.mistakes)
+    name = report.cases[0].name
+    found = motions(report).get(name)
+    if found is None:
+        raise click.UsageError(f"{name} is a claim about states: nothing moves")
+    chosen = _quantity(quantity, report)
+    rows = report.comparisons, report.rungs, report.steps
+    save(picture(name, chosen, found, *rows), file)
+    DONE.append(f"the picture is {file}")
+    say(f"written to {file}: {chosen}")
+    if failing := next((row.because for row in report.comparisons if row.verdict == FAILS), None):
+        say(f"FAILS: {failing}")
+
+
+def _one(case: str, long: bool) -> None:
+    from ...runs.selection import choose_cases
+
+    chosen = choose_cases([case], long=long)
+    if len(chosen) > 1:
+        names = ", ".join(one.name for one in chosen)
+        raise click.UsageError(f"{case} has variants; plot one of: {names}")
+
+
+def _quantity(asked: str | None, report: "Report") -> str:
+    """Returns the quantity that was asked for, or without one the worst.
+
+    Raises click.UsageError where the case does not observe it.
+    """
+    rows = [row for row in report.comparisons if row.quantity != "audit"]
+    known = list(dict.fromkeys(row.quantity for row in rows))
+    if asked is None:
+        return max(rows, key=lambda row: row.ratio or 0.0).quantity
+    if asked not in known:
+        hint = nearest(asked, known) or f"; it observes {', '.join(known)}"
+        raise click.UsageError(f"no such quantity in this case: {asked}{hint}")
+    return asked

@@ -1,0 +1,161 @@
+"""The motions behind the rows: poses to be drawn and curves to be plotted, few digits of each."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ....cases.case import Case
+from ....cases.scene.frame import SPACE
+from ....cases.scene.observe import observe
+from ....cases.scene.point import CENTER
+from ....cases.scene.states import MASS_MATRIX
+from ....cases.trajectory import Array, Trajectory
+from ....reference.solve import motion_of
+from ...runs.suite import Report
+from ...runs.trials import Tried
+from . import poses
+from .pack import Packed, packed, packed_by_size
+from .sketch import extent, sketch
+
+POINTS = 128  # of a curve at most
+MOST = 64  # times as many poses as samples at most are looked at for the reference to be drawn
+HELD = 2  # parts of a sample: an engine's joints would be drawn two pixels more open than they are
+TRAIL = 400  # points of what a body has drawn behind it: twenty loops of twenty points
+SEEN = 1 / 400  # of what the motion reaches: nearer than that, two drawings are one
+
+Motion = dict[str, Any]
+
+
+def motions(report: Report) -> dict[str, Motion]:
+    """By case, of those that have a reference and claim a motion."""
+    of: dict[str, list[Tried]] = {}
+    for one in report.tried:
+        of.setdefault(one.pair.case.name, []).append(one)
+    return {
+        case.name: motion(case, report.solutions[case.name].trajectory, of.get(case.name, []))
+        for case in report.cases
+        if case.name in report.solutions and case.states is None
+    }
+
+
+def way(one: Tried) -> str:
+    """`mujoco.tuned.native`."""
+    return f"{one.pair.engine.name}.{one.pair.engine.setting}.{one.realised}"
+
+
+def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
+    """The drawing, the poses of the reference and of what differs from it, and all curves."""
+    size = extent(case.scene, reference.states)
+    ran = [one for one in tried if one.outcome.samples]
+    ghosts = {way(one): _ghost(one, reference.states, case, size) for one in ran}
+    times, states = _closely(case, reference, size)
+    moves = {**poses.moves(states), **poses.driven(case, times)}
+    return {
+        "axes": case.scene.frame.dimension,
+        "size": float(f"{size:.4g}"),
+        "sketch": sketch(case.scene, size),
+        **poses.drawn(case, times, moves, poses.CLOSE * size).packed(),
+        "trail": _trail(case, times, states),
+        "ghosts": {name: ghost for name, ghost in ghosts.items() if ghost},
+        "covered": sorted(name for name, ghost in ghosts.items() if ghost is None),
+        "curves": _curves(case, reference, ran),
+    }
+
+
+def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Mapping[str, Array]]:
+    """The motion at its samples, and between them too where they are too few to be drawn."""
+    times, states, between = case.times, reference.states, None
+    while (
+        len(times) < MOST * case.samples and (parts := poses.closer(case, times, states, size)) > 1
+    ):
+        whole = np.arange(len(times))
+        finer = np.linspace(0, len(times) - 1, parts * (len(times) - 1) + 1)
+        times = np.interp(finer, whole, times)  # every sample is one of them
+        between = between or motion_of(case, forces=False)
+        states = between(times).states
+    return times, states
+
+
+def thinned(count: int, most: int) -> Any:
+    """Which of so many samples are drawn: evenly, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[Packed] | None:
+    """Returns in space the way of the first place that is observed; None where there is none."""
+    n, scene = case.scene.frame.dimension, case.scene
+    observed = [name.rpartition(".")[0] for name in case.allow if name.endswith((".x", ".z"))]
+    joints = {name: joint.refers()[-1] for name, joint in scene.joints.items()}
+    ends = {name: (end.body, "", end.point) for name, end in joints.items()}
+    places = [ends.get(of, of.partition(".")) for of in observed]
+    of_bodies = [place for place in places if place[0] in scene.bodies]
+    if n == 2 or not of_bodies:
+        return None
+    body, _, point = of_bodies[0]
+    states = scene.bodies[body].point(moved[body], point or CENTER)
+    fine = np.linspace(times[0], times[-1], TRAIL)
+    way = poses.cubic(times, states[:, :n], states[:, n:], fine)  # lines would be a polygon
+    return [packed(column) for column in np.ascontiguousarray(way.T)]
+
+
+def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, size: float) -> Any:
+    """Its poses; None where the reference's drawing covers them, nothing where it has none.
+
+    held: whether it is drawn at its samples alone, because nobody knows the way between them.
+    """
+    own = {body: one.outcome.samples[body] for body in reference if body in one.outcome.samples}
+    if not own or not all(np.all(np.isfinite(rows)) for rows in own.values()):
+        return {}  # a quantity may be finite where a body is lost
+    if not one.outcome.wanted and _covered(own, reference, case, size):
+        return None
+    times, moves = one.pair.sampled.times, poses.moves(own)
+    if len(own) == len(reference) and poses.closer(case, times, own, size) > HELD:
+        return {**poses.Poses(times, moves).packed(), "held": True}
+    return poses.drawn(case, times, moves, poses.GHOST * size).packed()
+
+
+def _covered(
+    own: Mapping[str, Array], reference: Mapping[str, Array], case: Case, size: float
+) -> bool:
+    """Whether no place is off by more than is seen, and no attitude by as much at that size."""
+    place, attitude = case.scene.frame.place, case.scene.frame.attitude
+    for body, rows in own.items():
+        off, other = rows - reference[body], rows + reference[body]
+        turns = np.abs(off[:, attitude])
+        if case.scene.frame is SPACE:  # a quaternion and its opposite are one attitude
+            turns = np.minimum(turns.max(axis=1), np.abs(other[:, attitude]).max(axis=1))
+        if np.max(np.abs(off[:, place])) > SEEN * size or np.max(turns) > SEEN:
+            return False
+    return True
+
+
+def _curves(case: Case, reference: Trajectory, ran: Sequence[Tried]) -> dict[str, Any]:
+    """By quantity, at every sample: the reference, and by how much each engine is off it."""
+    kept = thinned(case.samples, POINTS)
+    known, found = case.quantities, {}
+    for name in (name for name in case.allow if name in known and name != MASS_MATRIX):
+        samples = observe(case.scene, reference, name)
+        wanted = samples if samples.ndim == 1 else np.zeros(len(samples))
+        off = {way(one): _off(one, name, samples) for one in ran if name in one.outcome.samples}
+        found[name] = {
+            "reference": packed(wanted[kept]),
+            "off": {name: curve for name, curve in off.items() if curve is not None},
+        }
+    return {"times": packed(case.times[kept]), "quantities": found}
+
+
+def _off(one: Tried, name: str, reference: Array) -> Any:
+    """An engine's samples against the reference's; of attitudes the angle between them."""
+    samples = one.outcome.samples[name]
+    wanted = one.outcome.wanted.get(name)
+    if samples.ndim > 1:
+        off = np.linalg.norm(samples, axis=1)
+    else:
+        off = samples - (reference if wanted is None else wanted)
+    kept = thinned(len(off), POINTS)
+    curve = {"curve": packed_by_size(off[kept])}
+    if wanted is not None:  # its own samples
+        values = off if samples.ndim > 1 else samples
+        curve |= {"times": packed(one.pair.sampled.times[kept]), "values": packed(values[kept])}
+    return curve

@@ -1,0 +1,250 @@
+"""The page as one text: the same bytes from the same rows and motions."""
+
+import gzip
+import json
+import re
+from base64 import b64encode
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup, escape
+
+from ....cases.case import Case
+from ....cases.theme import THEMES, themes
+from ....reference.certificate.errors import ERROR
+from ...runs.processes.temporary_folder import temporary_folder
+from ...runs.selection import BOOK
+from ...runs.suite import Report
+from ...tables import run_list, write
+from ...tables.ownership import unasked
+from ...tables.replace import replace
+from ...tables.row import FAILS, MUTANTS, Certificate
+from ...tables.spoken import WORDS, spoken
+from . import beside
+from .advice import advice
+from .beside import records
+from .column import Column, columns
+from .folder import BESIDE, Folder, folder
+from .heat import SHADES, Cell, cells
+from .listed import listed
+from .motions import Motion, motions
+from .overview import moving, overview
+from .rows import rows
+from .work import work
+
+SCRIPTS = ("read", "plot", "mechanism", "case", "section", "filter", "start")
+POWER = re.compile(r"(?<=\de)(?:\+0*|(-)0+)(?=\d)")  # of ten: 2e-07 and 2e+03 are 2e-7 and 2e3
+STYLES = ("style", "heat", "print")
+
+
+def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -> str:
+    """One HTML file. Text of a case is escaped wherever it stands."""
+    shown = columns(folder.comparisons)
+    mapped = [one for one in shown if one.engine != BOOK] or shown
+    found = cells(folder.comparisons, folder.rungs)
+    about = {case.name: themes(case) for case in cases}
+    named = {row.case for row in folder.comparisons}
+    told = [case for case in sorted(cases, key=lambda case: case.name) if case.name in named]
+    template = _environment().get_template("page.html")
+    return template.render(
+        run=folder.run,
+        head=overview(folder, found, shown),
+        moving=moving(motions, about, found),
+        themes=[(name, THEMES[name]) for name in THEMES if any(name in t for t in about.values())],
+        absent={name: beside.absent(name) for name in BESIDE},
+        advice=advice(folder.beside.get("advice.csv"), about),
+        causes=beside.causes(folder.beside.get("causes.csv")),
+        versions=beside.versions(folder.beside.get("versions.csv")),
+        names=named,
+        work=bool(folder.steps),
+        engines=list(dict.fromkeys(one.engine for one in mapped)),
+        groups=[(name, len(list(of))) for name, of in groupby(one.engine for one in mapped)],
+        columns=mapped,
+        kinds=sorted({cell.kind for cell in found.values()}),
+        shades=_shades(),
+        heat=[_line(case, mapped, found, about[case.name]) for case in told],
+        stick_slip=stick_slip(told, motions),
+        files=listed(told, shown, found, about),
+        trust=trust(folder),
+        mutants=mutants(folder.beside.get(MUTANTS)),
+        style=_text(f"{name}.css" for name in STYLES),
+        script=_text(f"{name}.js" for name in SCRIPTS),
+        motions=embedded(motions),
+        rows=embedded(
+            rows(folder, shown)
+            | {"work": work(folder.comparisons, folder.steps, about), "spoken": WORDS}
+        ),
+    )
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader(__package__ or "", "templates"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters["breakable"] = _breakable
+    environment.filters["spoken"] = spoken
+    environment.filters["tidy"] = lambda text: POWER.sub(r"\1", str(text))
+    return environment
+
+
+def _breakable(name: str) -> Markup:
+    """Returns a case's name that may go on in another line behind its dots and underscores."""
+    return Markup(re.sub(r"([._])", r"\1<wbr>", str(escape(name))))
+
+
+def _text(names: Any) -> str:
+    """Our own styles and scripts, which are no one's text."""
+    folder = files(__package__ or "") / "templates"
+    return "\n".join((folder / name).read_text(encoding="utf-8").rstrip() for name in names)
+
+
+def embedded(value: Any) -> str:
+    """Returns JSON packed by gzip, in 64 letters, none of which can close a script element.
+
+    No time stands in it: the same value gives the same letters.
+    """
+    text = json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return b64encode(gzip.compress(text.encode(), compresslevel=9, mtime=0)).decode()
+
+
+def _shades() -> list[str]:
+    ends = [f"{bound:g}" for bound in SHADES]
+    return [f"up to {ends[0]}", *(f"to {end}" for end in ends[1:]), f"above {ends[-1]}, or lost"]
+
+
+def _line(
+    case: Case, shown: Sequence[Column], found: Mapping[Any, Cell], about: Sequence[str]
+) -> dict[str, Any]:
+    return {
+        "case": case.name,
+        "title": case.title,
+        "themes": " ".join(about),
+        "cells": [(one, found.get((case.name, one))) for one in shown],
+    }
+
+
+# The mutants that the project's own tests make on purpose, and which test sees each.
+
+
+COLUMNS = ("room", "planted", "seen_by")
+
+
+def mutants(frame: pd.DataFrame | None) -> dict[str, Any] | None:
+    """The mistakes of each room, by the test that sees them. None where there is no list."""
+    if frame is None:
+        return None
+    rows = sorted(records(frame, COLUMNS), key=lambda row: (row["room"], row["seen_by"]))
+    rooms = [_room(room, list(of)) for room, of in groupby(rows, lambda row: row["room"])]
+    return {
+        "count": len(rows),
+        "tests": sum(len(room["tests"]) for room in rooms),
+        "rooms": rooms,
+    }
+
+
+def _room(name: str, rows: list[dict[str, str]]) -> dict[str, Any]:
+    tests = [
+        {"seen_by": seen_by, "planted": [row["planted"] for row in of]}
+        for seen_by, of in groupby(rows, lambda row: row["seen_by"])
+    ]
+    return {"room": name, "count": len(rows), "tests": tests}
+
+
+# The chapter's pictures of dry friction, of the cases that are its Examples 2.3 and 2.4.
+
+
+APPROXIMATED = (
+    ("growing_force", "block.vx", "tube", "Figures 2.29, 2.30: the speed under a growing force."),
+    ("growing_force", "block.vx", "error", "By how much each law and engine is off that."),
+    ("dynamometer", "block.vx", "tube", "Figures 2.31, 2.32: the speed behind a moving spring."),
+    ("dynamometer", "block.vx", "error", "By how much each law and engine is off that."),
+    ("dynamometer", "block.x", "tube", "Its place: a staircase."),
+    ("dynamometer", "scale.force", "tube", "Figures 2.23, 2.24: what the dynamometer shows."),
+)
+"""The book's Examples 2.3 and 2.4: system, quantity, plot, and what it shows."""
+
+
+def stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dict[str, str]]:
+    """Which pictures are drawn, each with its words."""
+    by_system = {case.system: case.name for case in cases if case.system and case.name in motions}
+    return [
+        {"case": by_system[system], "quantity": quantity, "plot": plot, "caption": caption}
+        for system, quantity, plot, caption in APPROXIMATED
+        if system in by_system and quantity in motions[by_system[system]]["curves"]["quantities"]
+    ]
+
+
+# The results of the references' own checks, and how much of the chapter is executed.
+
+
+NAMED = 8  # cases of an item by name; of more the number tells it
+
+
+def trust(folder: Folder) -> dict[str, Any]:
+    """The checks by their kind, and the items of the chapter."""
+    items = [_item(row) for row in folder.coverage.to_dict("records")]
+    kinds: dict[str, list[Certificate]] = {}
+    for check in folder.certificates:
+        if not check.check.startswith(ERROR):  # what is known of one quantity stands in its case
+            kinds.setdefault(check.check, []).append(check)
+    return {
+        "checks": sum(map(len, kinds.values())),
+        "failing": sum(row.verdict == FAILS for rows in kinds.values() for row in rows),
+        "kinds": [_kind(name, rows) for name, rows in sorted(kinds.items())],
+        "chapter": items,
+        "covered": sum(bool(item["cases"]) for item in items),
+    }
+
+
+def _kind(name: str, rows: list[Certificate]) -> dict[str, Any]:
+    def part(row: Certificate) -> float:
+        return row.difference / row.bound if row.bound else row.difference
+
+    worst = max(rows, key=part)
+    return {"check": name, "cases": len(rows), "part": f"{part(worst):.2g}", "worst": worst.case}
+
+
+def _item(row: Mapping[Any, Any]) -> dict[str, Any]:
+    names = str(row["cases"]).split()
+    told = ", ".join(names[:NAMED])
+    more = len(names) - NAMED
+    return {**row, "cases": f"{told} and {more} more" if more > 0 else told}
+
+
+# Where the page is written: beside its reports, all files of a run together.
+
+
+NAME = "index.html"
+
+
+def write_committed(
+    report: Report, cases: Sequence[Case], rows: Path, out: Path, *, overwrite: bool = False
+) -> None:
+    """The page of reports that are there, and of the motions behind them.
+
+    overwrite: also what is no page of ours. Raises Missing where there are none, and OSError: then
+    the folder holds what it held.
+    """
+    unasked(out, [NAME], overwrite=overwrite)
+    replace(out, {NAME: page(folder(rows), cases, motions(report))})
+
+
+def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> None:
+    """The reports of a run and their page. Raises OSError: then the folder holds what it held."""
+    frames = write.tables(report, report.cases)
+    unasked(out, [*frames, run_list.NAME, NAME], overwrite=overwrite)
+    with temporary_folder("textmech-page-") as made:
+        write.write(frames, made)
+        found = folder(made, beside=out)
+    made_of = page(found, report.cases, motions(report))
+    replace(out, lambda: write.texts(frames, out) | {NAME: made_of})

@@ -1,0 +1,222 @@
+"""The pictures of one case and quantity on paper: mechanism, tube, error, ladder."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+
+from ....cases.scene.rotation import turned
+from ....cases.trajectory import Array
+from ...tables.row import Comparison, Rungs, StepError
+from .column import Column, column
+from .heat import short
+from .motions import Motion
+from .pack import unpacked, unpacked_by_size
+from .paint import INK, style
+from .poses import read
+
+ROOM = 0.9  # of the tube's height, above and below it: further off is out of the picture
+LEAST = 1e-9  # of error over allowed: below that nothing is drawn
+
+
+def picture(
+    name: str,
+    quantity: str,
+    motion: Motion,
+    rows: Sequence[Comparison],
+    rungs: Sequence[Rungs],
+    steps: Sequence[StepError],
+) -> Figure:
+    """Draws a quantity of one case, from the rows of that case.
+
+    What has no curve, as the time of an event, has a ladder alone beside the mechanism.
+    """
+    own = [row for row in rows if row.quantity == quantity]
+    allowed = next((row.allowed for row in own if row.allowed), 1.0)
+    figure = Figure(figsize=(10, 7.2), layout="constrained")
+    axes = figure.subplots(2, 2)
+    figure.suptitle(f"{name}: {quantity}", fontsize=12, x=0.01, ha="left")
+    shown = list(dict.fromkeys(column(row) for row in own if row.error is not None))
+    strobe(axes[0, 0], motion, [one for one in shown if one.key in motion["ghosts"]])
+    curves = motion["curves"]["quantities"].get(quantity)
+    if curves is None:
+        for one in (axes[0, 1], axes[1, 0]):
+            one.set_axis_off()
+    else:
+        unit = own[0].unit if own else ""
+        times = unpacked(motion["curves"]["times"])
+        _tube(axes[0, 1], times, curves, shown, allowed, f"{quantity} [{unit}]")
+        _error(axes[1, 0], times, curves, shown, allowed, own)
+    climbed = [one for one in steps if one.quantity == quantity]
+    _ladder(axes[1, 1], [rung for rung in rungs if rung.quantity == quantity], climbed, allowed)
+    lines = {}
+    for one in axes.ravel()[1:]:
+        lines |= dict(zip(*reversed(one.get_legend_handles_labels()), strict=True))
+    place = {"loc": "outside lower left", "ncols": 3, "frameon": False, "fontsize": 9}
+    figure.legend(lines.values(), lines, **place)
+    return figure
+
+
+def _tube(
+    axes: Any, times: Array, curves: Any, shown: Sequence[Column], allowed: float, label: str
+) -> None:
+    reference = unpacked(curves["reference"])
+    axes.fill_between(times, reference - allowed, reference + allowed, color=INK, alpha=0.12, lw=0)
+    axes.plot(times, reference, color=INK, lw=2, label="reference")
+    low, high = np.min(reference) - allowed, np.max(reference) + allowed
+    bottom, top, away = low - ROOM * (high - low), high + ROOM * (high - low), []
+    for one, off in _off(curves, shown):
+        if "values" in off:  # at its own samples
+            x, y = unpacked(off["times"]), unpacked(off["values"])
+        else:
+            x, y = times, reference + unpacked_by_size(off["curve"])
+        _curve(axes, x, y, one, shown)
+        if np.min(y) < bottom or np.max(y) > top:
+            most = short(float(np.max(np.abs(unpacked_by_size(off["curve"])))))
+            away.append(f"{one.title} leaves the picture: off by up to {most}")
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(bottom, low), min(top, high))
+    axes.text(0.01, 0.99, "\n".join(away), transform=axes.transAxes, va="top", fontsize=8)
+    axes.set(xlabel="t [s]", ylabel=label)
+
+
+def _error(
+    axes: Any,
+    times: Array,
+    curves: Any,
+    shown: Sequence[Column],
+    allowed: float,
+    rows: Sequence[Comparison],
+) -> None:
+    for one, off in _off(curves, shown):
+        own = unpacked(off["times"]) if "times" in off else times
+        parts = np.abs(unpacked_by_size(off["curve"])) / allowed
+        _curve(axes, own, np.maximum(parts, LEAST), one, shown)
+    _bound(axes)
+    told = [row for row in rows if row.when is not None and row.ratio]
+    if told:
+        worst = max(told, key=lambda row: row.ratio or 0.0)
+        axes.plot([worst.when], [worst.ratio], "o", ms=10, mfc="none", color=INK)
+        axes.annotate(
+            f"{short(worst.ratio or 0.0)} × at {worst.when:.3g} s",
+            (worst.when, worst.ratio),
+            xytext=(-8, 8),
+            textcoords="offset points",
+            ha="right",
+            fontsize=9,
+        )
+        axes.set_ylim(top=max(axes.get_ylim()[1], 10 * (worst.ratio or 0.0)))
+    axes.set(xlabel="t [s]", ylabel="error / allowed")
+
+
+def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[StepError], allowed: float) -> None:
+    kinds = [column(rung) for rung in rungs]
+    for rung in rungs:
+        own = [s for s in steps if (column(s), s.ladder) == (column(rung), rung.ladder)]
+        milliseconds = [1e3 * one.step for one in own]
+        parts = [one.error / allowed for one in own]
+        order = "" if rung.order is None else f", order {rung.order:.2g}"
+        label = f"{column(rung).title}, {rung.ladder}{order}"
+        look = {**style(column(rung), kinds), "lw": 1.0 if rung.ladder == "held" else 1.6, "ms": 4}
+        axes.plot(milliseconds, np.maximum(parts, LEAST), label=label, **look)
+    axes.set(xscale="log", xlabel="step h [ms]", ylabel="error / allowed")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    _bound(axes)
+
+
+def _off(curves: Any, shown: Sequence[Column]) -> list[tuple[Column, Any]]:
+    return [(one, curves["off"][one.key]) for one in shown if one.key in curves["off"]]
+
+
+def _curve(axes: Any, x: Array, y: Array, of: Column, among: Sequence[Column]) -> None:
+    every = max(1, len(x) // 5)
+    axes.plot(x, y, lw=1.3, ms=4, markevery=every, **style(of, among))
+
+
+def _bound(axes: Any) -> None:
+    axes.set_yscale("log")
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.axhline(1.0, color=INK, lw=0.8, ls=":")
+    axes.axhspan(axes.get_ylim()[0], 1.0, color=INK, alpha=0.05, lw=0)
+    axes.grid(color=INK, alpha=0.15, lw=0.5)
+
+
+# A mechanism on paper: the reference at several instants, the engines where they end.
+
+
+INSTANTS = 7
+AZIMUTH, ELEVATION = np.radians(35.0), np.radians(20.0)  # as the page looks at space
+
+Pose = Mapping[str, Array]
+
+
+def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
+    """Draws it; ghosts: the ways whose last instant is drawn beside the reference's.
+
+    The scale is the mechanism's: a ghost that fell away leaves the picture.
+    """
+    drawn = read(motion)
+    shares = np.linspace(0.0, 1.0, INSTANTS)
+    frames = drawn.at(drawn.times[0] + shares * np.ptp(drawn.times))
+    for k, share in enumerate(shares.tolist()):
+        now = {part: rows[k] for part, rows in frames.items()}
+        _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * share, lw=1.6)
+    _links(axes, motion, {part: rows[-1] for part, rows in frames.items()})
+    if motion["trail"]:
+        trail = _seen(np.stack([unpacked(c) for c in motion["trail"]], axis=1))
+        axes.plot(*trail.T, color=INK, lw=0.8, alpha=0.5)
+    axes.set_aspect("equal", adjustable="datalim")
+    limits = axes.dataLim.frozen()
+    for one in ghosts:
+        ends = {part: pose[-1] for part, (pose, _) in read(motion["ghosts"][one.key]).moves.items()}
+        code = style(one, ghosts)["color"]
+        _bodies(axes, motion, ends, color=code, ls="--", lw=1.3, label=one.title)
+    axes.dataLim.set(limits)  # what drifts far away is cut off
+    axes.autoscale_view()
+    for place in motion["sketch"]["ground"]:
+        axes.plot(*_seen(np.array([place])).T, marker=6, color=INK, ms=8, alpha=0.6)
+    axes.set_axis_off()
+    axes.set_title(f"{INSTANTS} instants, the last in full ink", fontsize=9, loc="left")
+
+
+def _bodies(axes: Any, motion: Motion, now: Pose, **look: Any) -> None:
+    label = look.pop("label", None)
+    for name, body in motion["sketch"]["bodies"].items():
+        if name not in now:
+            continue
+        for line in body["lines"]:
+            axes.plot(*_seen(_placed(now[name], np.array(line))).T, label=label, **look)
+            label = None
+        if body["dot"]:
+            centre = _seen(now[name][None, : motion["axes"]]).T
+            axes.plot(*centre, marker="o", ms=6, label=label, **look)
+            label = None
+
+
+def _links(axes: Any, motion: Motion, now: Pose) -> None:
+    for link in motion["sketch"]["links"]:
+        ends = [_placed(now[p], np.array([place]))[0] if p else place for p, place in link["ends"]]
+        axes.plot(*_seen(np.array(ends)).T, color=INK, lw=0.8, ls=":")
+
+
+def _placed(pose: Array, places: Array) -> Array:
+    """(K, 2 or 3) in ground axes of places (K, 2 or 3) on a part."""
+    n = places.shape[1]
+    if len(pose) == n:  # a driven point of the ground, and a particle
+        return pose + places
+    if n == 3:
+        return pose[:3] + turned(pose[3:], places)
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    return pose[:2] + places @ np.array([[cos, sin], [-sin, cos]])
+
+
+def _seen(places: Array) -> Array:
+    """(K, 2): the plane as it is, space from the side and above."""
+    if places.shape[1] == 2:
+        return places
+    x, y, z = places.T
+    across = -np.sin(AZIMUTH) * x + np.cos(AZIMUTH) * y
+    towards = np.cos(AZIMUTH) * x + np.sin(AZIMUTH) * y
+    return np.stack([across, z * np.cos(ELEVATION) - towards * np.sin(ELEVATION)], axis=1)

@@ -1,0 +1,1 @@
+"""Processes, their ends and signals, and folders that go with them."""

@@ -1,0 +1,109 @@
+"""Plans all trials, runs every rung of all of them on its own, and judges once they are there."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ...cases.trajectory import Trajectory
+from ...engines.engine import Realised, Refusal
+from ..compare.judge.compare import Outcome, crashed
+from ..compare.trial.run import Climbed, Rung, climbed
+from ..compare.trial.simulate import At
+from ..compare.trial.trial import Trial
+from .processes.pool import Died
+from .task_results import Results
+from .tasks import Climb, Pair, Unit, judged, planned
+
+References = Mapping[str, Trajectory]
+"""By the case's name."""
+
+
+@dataclass(frozen=True)
+class Tried:
+    """The outcome of an engine for a case in one of its ways."""
+
+    pair: Pair
+    realised: Realised
+    outcome: Outcome
+
+
+def tried(pairs: Sequence[Pair], references: References, results: Results) -> list[Tried]:
+    """Every way of every engine, in the order of the pairs."""
+    asked = {results.keys.ways(pair.case, pair.engine): pair for pair in pairs}
+    found = {key: kept for key, pair in asked.items() if (kept := _stored(key, pair, results))}
+    left = {key: pair for key, pair in asked.items() if key not in found}
+    if left:
+        found |= _computed(left, references, results)
+    return [one for key in asked for one in found[key]]
+
+
+def _stored(key: str, pair: Pair, results: Results) -> list[Tried]:
+    """The stored outcomes of a pair in every way, if all are stored; else nothing."""
+    ways: tuple[Realised, ...] = results.store.get(key) or ()
+    names = [results.keys.outcome(key, way) for way in ways]
+    outcomes = results.stored(names)
+    if len(outcomes) < len(names):
+        return []
+    return [Tried(pair, way, outcomes[name]) for way, name in zip(ways, names, strict=True)]
+
+
+def _computed(
+    pairs: Mapping[str, Pair], references: References, results: Results
+) -> dict[str, list[Tried]]:
+    """By the pairs' keys. What died is not kept, so that the next run tries it again."""
+    ways = results.anew("plans", planned, pairs)
+    units: dict[str, Unit] = {}
+    gone: dict[str, Died] = {}
+    mine: dict[str, list[str]] = {key: [] for key in pairs}
+    planned_ways: dict[str, tuple[Realised, ...]] = {}
+    for key, pair in pairs.items():
+        found = ways[key]
+        died = isinstance(found, Died)
+        for way in (Refusal("native", found.because),) if died else found:
+            name = results.keys.outcome(key, way.realised)
+            units[name] = Unit(pair, way)
+            mine[key].append(name)
+            gone |= {name: found} if died else {}
+        if not died:
+            planned_ways[key] = tuple(way.realised for way in found)
+    results.keep(planned_ways)
+    outcomes = results.stored(units)
+    left = {name: unit for name, unit in units.items() if name not in {**outcomes, **gone}}
+    outcomes |= gone | _run(left, references, results)
+    return {key: [_tried(units[n], outcomes[n], references) for n in mine[key]] for key in pairs}
+
+
+def _run(
+    units: Mapping[str, Unit], references: References, results: Results
+) -> dict[str, Outcome | Died]:
+    """By the units' keys: all rungs, the longest first, or one core works alone at the end.
+
+    A rung that dies costs its unit, for all of a unit's rungs are behind what its rows say.
+    """
+    rungs: dict[str, Rung] = {}
+    places: dict[str, tuple[str, At]] = {}
+    for key, unit in units.items():
+        for at, rung in unit.rungs(references[unit.pair.case.name]).items():
+            name = results.keys.rung(key, *at)
+            rungs[name], places[name] = rung, (key, at)
+    longest = sorted(rungs.items(), key=lambda item: -item[1].steps)
+    samples = results.of("engines", climbed, dict(longest))
+    found: dict[str, dict[At, Climbed]] = {key: {} for key in units}
+    gone: dict[str, Died] = {}
+    for name, (key, at) in places.items():
+        found[key][at] = samples[name]
+        if isinstance(samples[name], Died):
+            gone.setdefault(key, samples[name])
+    climbs = {key: Climb(units[key], found[key]) for key in units if key not in gone}
+    outcomes = results.of("rows", judged, climbs)
+    whole = {key for key, outcome in outcomes.items() if isinstance(outcome, Outcome)}
+    results.store.drop(name for name, (key, _) in places.items() if key in whole)
+    return outcomes | gone
+
+
+def _tried(unit: Unit, outcome: Outcome | Died, references: References) -> Tried:
+    if isinstance(outcome, Died):
+        pair, because = unit.pair, outcome.because
+        refused = Refusal(unit.realised, because)
+        trial = Trial(pair.case, references[pair.case.name], pair.engine, refused)
+        outcome = crashed(trial, because)
+    return Tried(unit.pair, unit.realised, outcome)

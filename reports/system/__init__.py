@@ -1,1 +1,0 @@
-"""Processes, their ends and limits, locks, and files that are replaced together."""
