@@ -34,7 +34,7 @@ KINDS[3]["bearing"] = Bearing
 
 # The rest is used as it is.
 
-from given.outside import answered, solved
+from given.adapters.outside import answered, solved
 
 from textmech.cases.scene.observe import observe
 from textmech.engines.mujoco import MuJoCo

@@ -96,7 +96,7 @@ pymunk.ELEMENTS[Cable] = pymunk.Element(
 
 # The rest is used as it is.
 
-from given.outside import answered, solved
+from given.adapters.outside import answered, solved
 
 from textmech.cases.scene.observe import observe
 

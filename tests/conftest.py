@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.checkout import Unchanged
+from given.command.checkout import Unchanged
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -115,7 +115,7 @@ pymunk.ELEMENTS[Strut] = pymunk.Element(
 
 # The rest is used as it is.
 
-from given.outside import answered, solved
+from given.adapters.outside import answered, solved
 
 from textmech.reports.compare.events.times import reference_events
 

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from given.swing import swing
+from given.scenes.swing import swing
 from ruamel.yaml import YAML
 
 ACTION = Path(__file__).parents[1] / "action.yml"

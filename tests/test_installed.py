@@ -13,7 +13,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 from textmech.reports.tables import write
 from textmech.reports.tables.diff.folder import NOT_PACKED

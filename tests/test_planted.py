@@ -12,8 +12,8 @@ from typing import Any
 import pandas as pd
 import planted
 import pytest
-from given.report_folders import report
-from given.tree import TESTS
+from given.command.report_folders import report
+from given.command.tree import TESTS
 
 from textmech.reports.front.page.folder import folder
 from textmech.reports.tables import write

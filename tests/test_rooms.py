@@ -10,7 +10,7 @@ from itertools import takewhile
 from pathlib import Path
 
 import pytest
-from given.tree import FILES, imported, module
+from given.command.tree import FILES, imported, module
 
 TREES = ("cases", "engines", "reference", "reports")
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import executed
 import pytest
 import touched
-from given.tree import FILES
+from given.command.tree import FILES
 
 
 def mirrored(name: str) -> set[str]:

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from given.adapters.planning import CASES, SHIPPED, TUNED, planned
 from given.command import NEW
-from given.planning import CASES, SHIPPED, TUNED, planned
 
 from bench import __main__ as command
 from bench import reference

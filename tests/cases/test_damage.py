@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given.damage import damaged, numbers
 from given.same_examples import examples
-from given.spatial_case import SOUND as SPATIAL
+from given.scenes.damage import damaged, numbers
+from given.scenes.spatial_case import SOUND as SPATIAL
 from hypothesis import given
 from hypothesis import strategies as st
 

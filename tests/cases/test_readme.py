@@ -7,8 +7,8 @@ from inspect import signature
 from pathlib import Path
 
 import pytest
-from given.json_schema import wrong
-from given.spatial_case import SOUND as SOUND_IN_SPACE
+from given.command.json_schema import wrong
+from given.scenes.spatial_case import SOUND as SOUND_IN_SPACE
 
 from textmech.cases import find
 from textmech.cases.fields.friction_grammar import Coefficients, DryFriction

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from given import edges, scenes
+from given import scenes
 from given.otherwise import otherwise
-from given.scenes import cases_of
+from given.scenes import cases_of, edges
 
 from textmech.cases.case import Case
 from textmech.cases.language import resolve

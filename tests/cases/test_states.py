@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.claims import CHAIN, PLANE, claimed
 from given.scenes import cases_of, mistakes_of
+from given.scenes.claims import CHAIN, PLANE, claimed
 
 from textmech.cases import find
 from textmech.cases.language.grammar.file import Drawn

@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 
 import pytest
-from given.pendulum import pendulum
+from given.scenes.pendulum import pendulum
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from given import scenes
-from given.planning import TUNED
+from given.adapters.planning import TUNED
 
 from textmech.engines.engine import Plan
 from textmech.reference.solve import solve

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.engine_scenes import machine, pin, with_bodies, with_forces
-from given.planning import (
+from given.adapters.engine_scenes import machine, pin, with_bodies, with_forces
+from given.adapters.planning import (
     EVERY,
     NAMES,
     PAIRS,

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.claims import CHAIN, PLANE, claimed
-from given.planning import SETTINGS, TUNED, moved, planned, words
+from given.adapters.planning import SETTINGS, TUNED, moved, planned, words
+from given.scenes.claims import CHAIN, PLANE, claimed
 
 from textmech import engines
 from textmech.cases.case import Case

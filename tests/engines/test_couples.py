@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import scenes, torsion
-from given.engine_space import STILL
-from given.planning import TUNED, apart, moved, planned, refused, ways
+from given import scenes
+from given.adapters.engine_space import STILL
+from given.adapters.planning import TUNED, apart, moved, planned, refused, ways
+from given.scenes import torsion
 
 from textmech.cases.case import Case
 from textmech.cases.scene.forces.force import Couple

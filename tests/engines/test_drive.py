@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.planning import TUNED, apart, every, moved, refused
+from given.adapters.planning import TUNED, apart, every, moved, refused
 
 from textmech.cases.scene import Anchor, GroundPoint, Push, Scene, Signal
 from textmech.cases.scene.joint import planar_joint

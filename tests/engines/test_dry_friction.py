@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.closed_motions import growing, sliding_then_rolling, to_and_fro
-from given.engine_scenes import (
+from given.adapters.engine_scenes import (
     BLOCK,
     GROWING,
     RADIUS,
@@ -23,7 +22,8 @@ from given.engine_scenes import (
     thrown,
     touching,
 )
-from given.planning import CASES, NAMES, TUNED, begun, every, moved, ways
+from given.adapters.planning import CASES, NAMES, TUNED, begun, every, moved, ways
+from given.machines.closed_motions import growing, sliding_then_rolling, to_and_fro
 from given.scenes import solved
 
 from textmech.cases.scene import Anchor, Bounds, DryFriction, Push, Scene, Signal, Smooth

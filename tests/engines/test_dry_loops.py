@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.planning import TUNED, apart, certified, moved
+from given.adapters.planning import TUNED, apart, certified, moved
 
 from textmech.cases.case import Case
 from textmech.cases.scene.observe import observe

@@ -4,10 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import rubbing, scenes
-from given.outside import solved
-from given.planning import TUNED, apart, moved, planned, refused, ways
-from given.rubbing import HELD, HUNG
+from given import scenes
+from given.adapters.outside import solved
+from given.adapters.planning import TUNED, apart, moved, planned, refused, ways
+from given.scenes import rubbing
+from given.scenes.rubbing import HELD, HUNG
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import edges, scenes
-from given.engine_scenes import ROLLS, WHEEL, machine
-from given.planning import SHIPPED, TUNED, moved, refused, ways
+from given import scenes
+from given.adapters.engine_scenes import ROLLS, WHEEL, machine
+from given.adapters.planning import SHIPPED, TUNED, moved, refused, ways
+from given.scenes import edges
 
 from textmech.cases.scene import Anchor, Edge
 from textmech.engines.engine import Start

@@ -12,7 +12,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from given.planning import SETTINGS, TUNED, begun, every, moved, planned, words
+from given.adapters.planning import SETTINGS, TUNED, begun, every, moved, planned, words
 from given.scenes import SHIPPED, solved, typed
 
 from textmech.cases.scene import Anchor, Contact, Scene

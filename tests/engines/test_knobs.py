@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given.planning import NATIVE, begun, pair, planned
+from given.adapters.planning import NATIVE, begun, pair, planned
 from given.scenes import SHIPPED
 from ruamel.yaml import YAML
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.engine_scenes import (
+from given.adapters.engine_scenes import (
     BOX,
     ROD,
     ROLLS,
@@ -18,9 +18,9 @@ from given.engine_scenes import (
     pin,
     shaken,
 )
-from given.landings import HINGED
-from given.planning import NAMES, SETTINGS, TUNED, begun, moved, planned, words
+from given.adapters.planning import NAMES, SETTINGS, TUNED, begun, moved, planned, words
 from given.scenes import SHIPPED, tail, typed
+from given.scenes.landings import HINGED
 
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.scene.shape import bar

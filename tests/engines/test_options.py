@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given.planning import NAMES, SHIPPED, TUNED, begun, planned
+from given.adapters.planning import NAMES, SHIPPED, TUNED, begun, planned
 
 from textmech import engines
 from textmech.engines.step_scaled import at, tied

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.planning import NATIVE, begun, pair, planned, refused
+from given.adapters.planning import NATIVE, begun, pair, planned, refused
 from given.scenes import SHIPPED
 
 from textmech import engines

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.pairs import BOB, TRAY, G, R
-from given.planning import CASES, TUNED, begun, moved, planned
+from given.adapters.planning import CASES, TUNED, begun, moved, planned
+from given.scenes.pairs import BOB, TRAY, G, R
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene

@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 import pytest
 from given import scenes
-from given.planning import begun
+from given.adapters.planning import begun
 
 from textmech.engines.mujoco import MuJoCo
 from textmech.reference.solve import solve

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
+from given.adapters.plain_models import BOX, MODELS
+from given.adapters.planning import begun
 from given.otherwise import otherwise
-from given.plain_models import BOX, MODELS
-from given.planning import begun
 
 from textmech import engines
 from textmech.cases.trajectory import Array

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.planning import NAMES, TUNED, ways
-from given.planning import moved as run
+from given.adapters.planning import NAMES, TUNED, ways
+from given.adapters.planning import moved as run
 from given.scenes import typed
 
 from textmech.cases.case import Case

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from given.engine_scenes import (
+from given.adapters.engine_scenes import (
     BLOCK,
     DRAWN,
     GROWING,
@@ -20,7 +20,7 @@ from given.engine_scenes import (
     launched,
     touching,
 )
-from given.planning import (
+from given.adapters.planning import (
     COVERING,
     NAMES,
     SETTINGS,

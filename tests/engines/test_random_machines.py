@@ -7,8 +7,8 @@ from functools import cache, partial
 
 import numpy as np
 import pytest
-from given.planning import TUNED, planned, refused
-from given.random_machines import Build, chain, loops, mechanism, rolling, tree
+from given.adapters.planning import TUNED, planned, refused
+from given.machines.random_machines import Build, chain, loops, mechanism, rolling, tree
 
 from textmech.cases.scene import Scene
 from textmech.cases.scene.observe import observe

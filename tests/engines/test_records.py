@@ -11,8 +11,17 @@ import numpy as np
 import pymunk
 import pytest
 from bench.adapters import LOOPS
-from given.engine_scenes import BLOCK, RESTS, WHEEL, G, incline, launched, machine, touching
-from given.planning import (
+from given.adapters.engine_scenes import (
+    BLOCK,
+    RESTS,
+    WHEEL,
+    G,
+    incline,
+    launched,
+    machine,
+    touching,
+)
+from given.adapters.planning import (
     EVERY,
     HELD,
     NAMES,

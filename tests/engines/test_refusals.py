@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from given import engine_scenes as given
-from given.engine_scenes import (
+from given.adapters import engine_scenes as given
+from given.adapters.engine_scenes import (
     BOB,
     BOX,
     ODD_NAMES,
@@ -19,7 +19,7 @@ from given.engine_scenes import (
     on_a_swing,
     pin,
 )
-from given.engine_space import (
+from given.adapters.engine_space import (  # fmt: skip
     STILL,
     attitude,
     hinge,
@@ -29,11 +29,11 @@ from given.engine_space import (
     spatial,
     state,
     vector,
-)  # fmt: skip
-from given.engine_space import particle as lump
-from given.engine_space import rigid as solid
-from given.planning import NAMES, SETTINGS, TUNED, moved, planned, refused, words
-from given.skew_chain import Q_DOT, Q, chain, start
+)
+from given.adapters.engine_space import particle as lump
+from given.adapters.engine_space import rigid as solid
+from given.adapters.planning import NAMES, SETTINGS, TUNED, moved, planned, refused, words
+from given.machines.skew_chain import Q_DOT, Q, chain, start
 
 from textmech.cases.scene import (
     Anchor,

@@ -8,8 +8,9 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from given import rods, scenes
-from given.planning import TUNED, apart, moved, planned
+from given import scenes
+from given.adapters.planning import TUNED, apart, moved, planned
+from given.scenes import rods
 
 from textmech.cases.scene import Anchor
 from textmech.engines.mujoco.model import loops

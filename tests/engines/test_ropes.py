@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ropes, scenes
-from given.planning import SHIPPED, TUNED, apart, moved, planned, refused, ways
+from given import scenes
+from given.adapters.planning import SHIPPED, TUNED, apart, moved, planned, refused, ways
+from given.scenes import ropes
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene, Spring

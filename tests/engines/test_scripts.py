@@ -15,8 +15,8 @@ from xml.etree import ElementTree as ET
 import mujoco
 import numpy as np
 import pytest
-from given import engine_scenes as given
-from given.planning import NATIVE, SETTINGS, TUNED, begun, moved, pair, planned, words
+from given.adapters import engine_scenes as given
+from given.adapters.planning import NATIVE, SETTINGS, TUNED, begun, moved, pair, planned, words
 from given.scenes import SHIPPED, typed
 
 from textmech.cases.fields.signal import Law, Signal

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.engine_scenes import GROWING, guided
-from given.planning import TUNED, apart, begun, certified, moved, planned
+from given.adapters.engine_scenes import GROWING, guided
+from given.adapters.planning import TUNED, apart, begun, certified, moved, planned
 
 from textmech.cases.case import Case
 from textmech.cases.scene import Signal

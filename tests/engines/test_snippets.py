@@ -11,9 +11,10 @@ import mujoco
 import numpy as np
 import pymunk
 import pytest
-from given import rods, scenes
-from given.models import differing
-from given.planning import begun, planned
+from given import scenes
+from given.adapters.models import differing
+from given.adapters.planning import begun, planned
+from given.scenes import rods
 
 from textmech.engines.engine import Choice
 from textmech.engines.knobs import Options

@@ -12,8 +12,9 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from given import scenes, slowed
-from given.planning import CASES, SHIPPED, TUNED, apart, begun, moved, refused, ways
+from given import scenes
+from given.adapters.planning import CASES, SHIPPED, TUNED, apart, begun, moved, refused, ways
+from given.scenes import slowed
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case

@@ -9,7 +9,7 @@ import numpy as np
 
 from textmech.reference.system import Mode, Only, System
 
-from .spatial_laws import matrix
+from .laws.spatial_laws import matrix
 
 Kind = TypeVar("Kind", Mode, System)
 

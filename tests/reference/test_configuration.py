@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from given import scenes
-from given.examples import example, only
-from given.formal import FORMAL, drawn
 from given.laws import difference
-from given.mass_points import Elements
-from given.states import states
+from given.machines.examples import example, only
+from given.machines.formal import FORMAL, drawn
+from given.machines.mass_points import Elements
+from given.machines.states import states
 
 from textmech.reference.formalisms import voronets
 from textmech.reference.formalisms.dependent import dependent

@@ -4,8 +4,8 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from given.pendulum import pendulum
 from given.same_examples import examples
+from given.scenes.pendulum import pendulum
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.refused import refused
-from given.statics import spans
+from given.laws.refused import refused
+from given.laws.statics import spans
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case

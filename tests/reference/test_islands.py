@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.engine_scenes import machine, pin
+from given.adapters.engine_scenes import machine, pin
 
 from textmech.cases.case import Case
 from textmech.cases.load import load

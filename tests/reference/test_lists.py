@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from given import scenes
-from given.tree import ROOT
+from given.command.tree import ROOT
 
 from textmech.reference import certificate
 from textmech.reference.coverage import Numbered, equations, noting

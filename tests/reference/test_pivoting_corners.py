@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.refused import refused
+from given.laws.refused import refused
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.solve import solve

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from given import scenes
-from given.closed_motions import time_to_flat
-from given.refused import refused
+from given.laws.refused import refused
+from given.machines.closed_motions import time_to_flat
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case

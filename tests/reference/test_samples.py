@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import resampled, scenes
-from given.refused import refused
+from given import scenes
+from given.laws import resampled
+from given.laws.refused import refused
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 from given.command import NEW
 from given.command import textmech as command
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 import textmech.reports
 from textmech.cases.mistake import CaseError

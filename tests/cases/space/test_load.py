@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from given.machines.spatial_motions import turn
 from given.scenes import cases_of, mistakes_of
-from given.spatial_case import SOUND
-from given.spatial_motions import turn
+from given.scenes.spatial_case import SOUND
 
 from textmech.cases.case import Case
 from textmech.cases.scene import (

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.spatial_motions import Array, Moving, T, rate, states, turn
+from given.machines.spatial_motions import Array, Moving, T, rate, states, turn
 
 from textmech.cases.scene import Anchor, Damper, GroundPoint, Scene, Signal, Spring
 from textmech.cases.scene.body import Body

@@ -13,13 +13,13 @@ import mujoco
 import numpy as np
 import pytest
 from bench.adapters import LOOPS
-from given import engine_scenes as given
 from given import scenes
-from given.engine_scenes import ODD_NAMES, ROD, machine, pin, shaken, with_forces
-from given.models import differing
-from given.planning import CASES, NATIVE, SHIPPED, begun, moved, planned
-from given.planning import TUNED as ENGINES
-from given.random_machines import chain, loops, tree
+from given.adapters import engine_scenes as given
+from given.adapters.engine_scenes import ODD_NAMES, ROD, machine, pin, shaken, with_forces
+from given.adapters.models import differing
+from given.adapters.planning import CASES, NATIVE, SHIPPED, begun, moved, planned
+from given.adapters.planning import TUNED as ENGINES
+from given.machines.random_machines import chain, loops, tree
 
 from textmech.cases.scene import Scene, Spring
 from textmech.cases.trajectory import Array

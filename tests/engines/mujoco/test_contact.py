@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 import pytest
 from given import scenes
-from given.engine_scenes import (
+from given.adapters.engine_scenes import (  # fmt: skip
     BLOCK,
     RESTS,
     ROLLS,
@@ -23,8 +23,8 @@ from given.engine_scenes import (
     launched,
     machine,
     touching,
-)  # fmt: skip
-from given.planning import SHIPPED, TUNED, every, moved, planned
+)
+from given.adapters.planning import SHIPPED, TUNED, every, moved, planned
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal

@@ -5,10 +5,10 @@ from functools import partial
 
 import numpy as np
 import pytest
-from given.closed_motions import sliding_then_rolling
-from given.engine_scenes import RADIUS, WHEEL, G, incline, launched, machine, pin, touching
-from given.planning import TUNED, moved, planned
-from given.swings import generated
+from given.adapters.engine_scenes import RADIUS, WHEEL, G, incline, launched, machine, pin, touching
+from given.adapters.planning import TUNED, moved, planned
+from given.machines.closed_motions import sliding_then_rolling
+from given.machines.swings import generated
 
 from textmech.cases.fields.friction import Bounds as Bounded
 from textmech.cases.fields.friction import DryFriction, Smooth

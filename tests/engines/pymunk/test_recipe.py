@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given.closed_motions import drawn, pendulum
-from given.engine_scenes import (
+from given.adapters.engine_scenes import (
     BLOCK,
     DRAWN,
     RESTS,
@@ -19,11 +18,12 @@ from given.engine_scenes import (
     thrown,
     touching,
 )
-from given.light_parts import CRANE, SCISSOR, WHITWORTH
-from given.planning import SHIPPED as SHIPPED_ENGINES
-from given.planning import TUNED, begun, every, moved, planned
+from given.adapters.planning import SHIPPED as SHIPPED_ENGINES
+from given.adapters.planning import TUNED, begun, every, moved, planned
+from given.machines.closed_motions import drawn, pendulum
+from given.machines.swings import energy_drift, swing_error
 from given.scenes import SHIPPED, tail, typed
-from given.swings import energy_drift, swing_error
+from given.scenes.light_parts import CRANE, SCISSOR, WHITWORTH
 from scipy.linalg import subspace_angles
 
 from textmech import engines

@@ -8,7 +8,7 @@ import numpy as np
 import pymunk
 import pytest
 from given import scenes
-from given.planning import TUNED, apart, begun, certified, every, moved
+from given.adapters.planning import TUNED, apart, begun, certified, every, moved
 
 from textmech.cases.case import Case
 from textmech.cases.trajectory import Array, Trajectory

@@ -9,8 +9,18 @@ import numpy as np
 import pymunk
 import pytest
 from given import scenes
-from given.engine_scenes import BOX, RADIUS, WHEEL, G, guided, incline, machine, pin, touching
-from given.planning import CASES, SHIPPED, TUNED, begun, moved, planned
+from given.adapters.engine_scenes import (
+    BOX,
+    RADIUS,
+    WHEEL,
+    G,
+    guided,
+    incline,
+    machine,
+    pin,
+    touching,
+)
+from given.adapters.planning import CASES, SHIPPED, TUNED, begun, moved, planned
 from pymunk import batch
 from pymunk.batch import BodyFields, Buffer, get_space_bodies
 from pymunk.body import Body

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from given.examples import example
+from given.machines.examples import example
 
 from textmech.reference.approximations.approximation import Karnopp, arrest, boxcars, stepped
 from textmech.reference.laws.friction import Dry, stiction

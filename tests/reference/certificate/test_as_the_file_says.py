@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import broken, certified
-from given.laws_in_time import LAWS
+from given.laws.certified import broken, certified
+from given.scenes.laws_in_time import LAWS
 
 from textmech.cases.case import Case
 from textmech.cases.fields.signal import Signal

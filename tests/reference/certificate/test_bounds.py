@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import broken, certified
-from given.claims import CHAIN, claimed
+from given.laws.certified import broken, certified
 from given.mutants import mutant, with_mode
+from given.scenes.claims import CHAIN, claimed
 
 from textmech.cases.case import Case
 from textmech.cases.scene.joint import Joint

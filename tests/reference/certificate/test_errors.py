@@ -10,10 +10,10 @@ import mpmath
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import stated
-from given.claims import claimed
-from given.examples import only
-from given.refused import refused
+from given.laws.certified import stated
+from given.laws.refused import refused
+from given.machines.examples import only
+from given.scenes.claims import claimed
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError

@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import broken, certified
-from given.claims import claimed
-from given.examples import only
-from given.formal import FORMAL
-from given.formal import drawn as formal
+from given.laws.certified import broken, certified
+from given.machines.examples import only
+from given.machines.formal import FORMAL
+from given.machines.formal import drawn as formal
+from given.machines.states import states
+from given.machines.turning_bodies import J
 from given.mutants import mutant
-from given.states import states
-from given.turning_bodies import J
+from given.scenes.claims import claimed
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from given import scenes
-from given.certified import broken
+from given.laws.certified import broken
 
 from textmech.cases.fields.friction import Bounds
 from textmech.cases.scene.forces.limit import Rope, Stops

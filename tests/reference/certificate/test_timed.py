@@ -13,7 +13,7 @@ import mpmath
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import certified, stated
+from given.laws.certified import certified, stated
 
 from textmech.cases.case import Case
 from textmech.reference.certificate import certify, errors

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.certified import broken, certified
+from given.laws.certified import broken, certified
 from given.mutants import mutant, with_mode
 
 from textmech.cases.case import Case
@@ -249,7 +249,9 @@ CHECKS: dict[str, Two] = {
     REACTIONS: Two(PENDULUM, in_mode(**times(1.01, "reactions")), in_scene(mass=1.01)),
     CLOSED: Two(SPRING, FASTER, in_mode(**times(1.01, "closed_form"))),
     IMPLICIT: Two(
-        BRAKING, patched("given.certified.follow", delayed), patched(certify, "follow", delayed)
+        BRAKING,
+        patched("given.laws.certified.follow", delayed),
+        patched(certify, "follow", delayed),
     ),
     OTHER: Two(BRAKING, late, NO_GUARDS),
     KNOWN: Two(BRAKING, late, said(lambda events: [(name, t + 1e-6) for name, t in events])),
@@ -365,7 +367,7 @@ PLANTED: dict[str, tuple[Case, Plant, set[str]]] = {
     ),
     "another mass in the generated bar": (PENDULUM, in_scene(mass=1.05), {GENERATED, REACTIONS}),
     "an integrator with a tolerance of 1e-6": (
-        PENDULUM, patched("given.certified.either", sloppy), {ERROR},
+        PENDULUM, patched("given.laws.certified.either", sloppy), {ERROR},
     ),
     "explicit integrator 1e-4 off where modes switch": (BRAKING, first(1e-4), {ERROR}),
     "implicit integrator 1e-4 off where modes switch": (BRAKING, second(1e-4), {ERROR}),

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy as sp
-from given.examples import only
-from given.formal import EXACT, FORMAL, drawn
 from given.laws import difference
-from given.mass_points import Elements
+from given.machines.examples import only
+from given.machines.formal import EXACT, FORMAL, drawn
+from given.machines.mass_points import Elements
 
 from textmech.reference.formalisms import lagrange
 from textmech.reference.formalisms.derivative import along

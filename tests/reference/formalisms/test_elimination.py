@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from given.formal import EXACT, FORMAL, drawn
 from given.laws import difference
-from given.mass_points import Elements
+from given.machines.formal import EXACT, FORMAL, drawn
+from given.machines.mass_points import Elements
 
 from textmech.reference.formalisms import appell, lagrange, voronets
 from textmech.reference.formalisms.dependent import Dependent, dependent

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.examples import only
-from given.formal import EXACT, FORMAL, drawn
 from given.laws import difference
+from given.machines.examples import only
+from given.machines.formal import EXACT, FORMAL, drawn
+from given.machines.states import states
+from given.machines.turning_bodies import J, unit
 from given.mutants import mutant
 from given.scenes import typed
-from given.states import states
-from given.turning_bodies import J, unit
 
 from textmech.reference.formalisms import appell, energy, lagrange, newton_euler
 from textmech.reference.formalisms import lagrangian as one_function

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.formal import EXACT, FORMAL, drawn
 from given.laws import difference
+from given.machines.formal import EXACT, FORMAL, drawn
+from given.machines.turning_bodies import J
 from given.mutants import mutant
-from given.turning_bodies import J
 
 from textmech.reference.formalisms import newton_euler
 from textmech.reference.formalisms.wrench import wrench

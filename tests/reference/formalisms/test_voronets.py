@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.examples import MODES, example
-from given.formal import EXACT, FORMAL, drawn
 from given.laws import At, difference
+from given.machines.examples import MODES, example
+from given.machines.formal import EXACT, FORMAL, drawn
+from given.machines.states import states
 from given.mutants import mutant
-from given.states import states
 
 from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reference.formalisms.dependent import Dependent, dependent
@@ -53,7 +53,7 @@ def apart(form: ModuleType, mode: Mode, at: Any) -> float | None:
 
 
 def worst(form: ModuleType, name: str, count: int, mode: Mode | None = None) -> float:
-    """Of the modes of `given.formal`."""
+    """Of the modes of `given.machines.formal`."""
     found = [apart(form, mode or FORMAL[name], at) for at in drawn(name, count)]
     return max(x for x in found if x is not None)
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from given.problems import BOTH, PROBLEMS, Solution, kepler, kepler_solution
+from given.machines.problems import BOTH, PROBLEMS, Solution, kepler, kepler_solution
 
 from textmech.reference.integrators import march
 from textmech.reference.integrators.dop853 import DOP853, STAGES

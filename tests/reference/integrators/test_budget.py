@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from given import scenes
 from given.otherwise import otherwise
-from given.pendulum import pendulum
+from given.scenes.pendulum import pendulum
 
 from textmech.cases.load import load
 from textmech.cases.mistake import CaseError

@@ -5,7 +5,7 @@ from math import cos, sin
 
 import numpy as np
 import pytest
-from given.problems import (
+from given.machines.problems import (
     BOTH,
     by_scipy,
     kepler,

@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from given import momenta
-from given.formal import EXACT, FORMAL, drawn
-from given.laws import difference
-from given.mass_points import Elements, elements
-from given.momenta import Acting, Point, System, planar, samples
+from given.laws import difference, momenta
+from given.laws.momenta import Acting, Point, System, planar, samples
+from given.machines.formal import EXACT, FORMAL, drawn
+from given.machines.mass_points import Elements, elements
+from given.machines.spring_pair import FREE, pair
+from given.machines.turning_bodies import J as BODY_J
 from given.scenes import mechanism, typed
-from given.spring_pair import FREE, pair
-from given.turning_bodies import J as BODY_J
 
 from textmech.cases.case import Case
 from textmech.cases.scene.frame import SPACE

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from given import scenes
-from given.refused import refused
+from given.laws.refused import refused
 from scipy.integrate import quad
 
 from textmech.cases.case import Case

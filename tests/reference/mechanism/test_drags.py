@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import scenes, slowed
-from given.multibody_laws import EXACT, balance, lagrangian
-from given.refused import refused
+from given import scenes
+from given.laws.multibody_laws import EXACT, balance, lagrangian
+from given.laws.refused import refused
+from given.scenes import slowed
 from scipy.integrate import quad, solve_ivp
 
 from textmech.cases.case import Case

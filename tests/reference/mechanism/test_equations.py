@@ -6,8 +6,9 @@ from dataclasses import replace
 import mpmath
 import numpy as np
 import pytest
-from given import random_machines, scenes
-from given.engine_scenes import chain
+from given import scenes
+from given.adapters.engine_scenes import chain
+from given.machines import random_machines
 
 from textmech.cases.fields import number
 from textmech.cases.mistake import CaseError

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import scenes, torsion
-from given.multibody_laws import EXACT, balance, lagrangian
+from given import scenes
+from given.laws.multibody_laws import EXACT, balance, lagrangian
 from given.otherwise import otherwise
+from given.scenes import torsion
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import rubbing, scenes
-from given.refused import refused
-from given.rubbing import HUNG
+from given import scenes
+from given.laws.refused import refused
+from given.scenes import rubbing
+from given.scenes.rubbing import HUNG
 from scipy.integrate import quad
 from scipy.optimize import brentq
 

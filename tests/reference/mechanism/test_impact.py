@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.refused import refused
+from given.laws.refused import refused
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError

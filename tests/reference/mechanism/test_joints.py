@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import edges, rods, scenes
-from given.multibody_laws import EXACT, balance, lagrangian
+from given import scenes
+from given.laws.multibody_laws import EXACT, balance, lagrangian
+from given.scenes import edges, rods
 from scipy.integrate import simpson, solve_ivp
 
 from textmech.cases.mistake import CaseError

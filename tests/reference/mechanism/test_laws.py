@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.engine_scenes import BOX, G, machine, pin
-from given.multibody_laws import EXACT, Law, balance, lagrangian
-from given.random_machines import loops, machines, state
+from given.adapters.engine_scenes import BOX, G, machine, pin
+from given.laws.multibody_laws import EXACT, Law, balance, lagrangian
+from given.machines.random_machines import loops, machines, state
 
 from textmech.cases.scene import (
     GROUND,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from given import scenes
+from given.laws.refused import refused
 from given.otherwise import otherwise
-from given.refused import refused
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError

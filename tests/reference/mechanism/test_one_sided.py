@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import ropes, scenes
-from given.refused import refused
+from given import scenes
+from given.laws.refused import refused
+from given.scenes import ropes
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError

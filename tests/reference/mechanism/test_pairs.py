@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.pairs import PHI0, S0, TRAY, A, G, I, J, R, m
+from given.scenes.pairs import PHI0, S0, TRAY, A, G, I, J, R, m
 from scipy.integrate import solve_ivp
 
 from textmech.cases.case import Case

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.refused import refused
+from given.laws.refused import refused
 from given.scenes import SHIPPED, parsed, tail
 
 from textmech.cases.case import Case

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.laws_in_time import ALL, LAWS, MOVING, PRESCRIBED, words
+from given.scenes.laws_in_time import ALL, LAWS, MOVING, PRESCRIBED, words
 
 from textmech.cases.case import Case
 from textmech.cases.fields.signal import Law, Signal

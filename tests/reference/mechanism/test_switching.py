@@ -3,7 +3,8 @@
 from collections.abc import Callable
 
 import pytest
-from given import scenes, written_scenes
+from given import scenes
+from given.scenes import written_scenes
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.mechanism.constraints.contact import Coulomb

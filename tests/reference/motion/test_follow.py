@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.closed_motions import time_to_flat
+from given.machines.closed_motions import time_to_flat
+from given.machines.watched import Oscillator, Plain, Still, Watched, events
 from given.otherwise import otherwise
-from given.watched import Oscillator, Plain, Still, Watched, events
 
 from textmech.cases.case import Case
 from textmech.reference.integrators.explicit import DormandPrince

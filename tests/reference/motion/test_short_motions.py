@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from given.certified import broken, stated
+from given.laws.certified import broken, stated
 from given.scenes import parsed, scene
 
 from textmech.cases.case import Case

@@ -4,8 +4,8 @@ import math
 
 import mpmath
 import pytest
-from given.certified import stated
-from given.refused import refused
+from given.laws.certified import stated
+from given.laws.refused import refused
 from given.scenes import parsed, scene, tail
 
 from textmech.cases.case import Case

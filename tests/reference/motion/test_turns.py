@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.certified import broken
+from given.laws.certified import broken
 from given.scenes import parsed, scene
 from scipy.spatial.transform import Rotation
 

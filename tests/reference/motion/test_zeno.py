@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from given import scenes
-from given.watched import Oscillator, Still, Watched
+from given.machines.watched import Oscillator, Still, Watched
 
 from textmech.cases.mistake import CaseError
 from textmech.reference.motion import follow as event

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.claims import CHAIN, claimed
+from given.scenes.claims import CHAIN, claimed
 
 from textmech.cases.case import Case, Placement
 from textmech.cases.mistake import CaseError

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import spatial
-from given.examples import PARAMETERS, VARIANTS, example
-from given.gimbals import VARIANTS as GIMBALS
-from given.gimbals import gimbal
-from given.robots import robot
-from given.wheels import CLOSED, FROM_ABOVE, wheel
+from given.machines import spatial
+from given.machines.examples import PARAMETERS, VARIANTS, example
+from given.machines.gimbals import VARIANTS as GIMBALS
+from given.machines.gimbals import gimbal
+from given.machines.robots import robot
+from given.machines.wheels import CLOSED, FROM_ABOVE, wheel
 
 from textmech.reference.system import Guard, Only, System
 from textmech.reference.systems import written

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.examples import THROWN, duration, example
+from given.machines.examples import THROWN, duration, example
 from given.mutants import mutant, with_mode
 
 from textmech.reference.motion.follow import follow

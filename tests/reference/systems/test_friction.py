@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from given import laws
-from given.events import LOCATED, event_errors
-from given.examples import duration, example, only
+from given.laws.events import LOCATED, event_errors
+from given.machines.examples import duration, example, only
 from given.mutants import mutant, with_mode
 
 from textmech.reference.laws.friction import Dry, smooth

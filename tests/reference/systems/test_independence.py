@@ -4,7 +4,7 @@ import ast
 from pathlib import Path
 
 import pytest
-from given.tree import FILES, PACKAGES, ROOT, absolute
+from given.command.tree import FILES, PACKAGES, ROOT, absolute
 
 HERE = "reference.systems"
 SYSTEMS = sorted(

@@ -9,14 +9,15 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from given import gimbals, laws, muscles, robots, wheels
-from given.events import LOCATED, event_errors
-from given.examples import MODES, PARAMETERS, SMOOTH, VARIANTS, duration, example, only
+from given import laws
 from given.laws import Law
+from given.laws.events import LOCATED, event_errors
+from given.laws.seen_by import AT_THE_START, PARAMETER
+from given.machines import gimbals, muscles, robots, wheels
+from given.machines.examples import MODES, PARAMETERS, SMOOTH, VARIANTS, duration, example, only
+from given.machines.spatial import SPATIAL
+from given.machines.states import states
 from given.mutants import mutant
-from given.seen_by import AT_THE_START, PARAMETER
-from given.spatial import SPATIAL
-from given.states import states
 
 from textmech.reference.formalisms import lagrange
 from textmech.reference.motion.follow import follow

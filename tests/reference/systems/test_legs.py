@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.examples import example
+from given.machines.examples import example
 from given.mutants import mutant, with_mode
 from scipy.integrate import solve_ivp
 

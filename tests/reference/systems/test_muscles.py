@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given.laws import difference
-from given.muscles import PARAMETERS, drawn, muscle
+from given.machines.muscles import PARAMETERS, drawn, muscle
 from given.mutants import mutant
 
 from textmech.reference.formalisms import energy, lagrange, newton_euler, voronets

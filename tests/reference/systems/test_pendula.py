@@ -8,8 +8,8 @@ import mpmath
 import numpy as np
 import pytest
 from given import scenes
-from given.events import LOCATED, event_errors
-from given.examples import example
+from given.laws.events import LOCATED, event_errors
+from given.machines.examples import example
 from given.otherwise import otherwise
 
 from textmech.cases.scene.observe import observe

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from given import spatial
-from given.examples import example
+from given.machines import spatial
+from given.machines.examples import example
 
 
 def test_friction_cone_is_not_ignored():

@@ -8,10 +8,9 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from given import free_cut, robot_laws
-from given.laws import LIMIT, difference
+from given.laws import LIMIT, cut_bodies, difference, robot_laws
+from given.machines.robots import PARAMETERS, robot, states
 from given.mutants import in_ground_axes, mutant, sound, too_fast, transposed
-from given.robots import PARAMETERS, robot, states
 
 from textmech.reference.formalisms import lagrange
 from textmech.reference.formalisms.derivative import along
@@ -65,11 +64,11 @@ def shoulder(mode: Mode) -> float:
     t, q = 0.3, np.array([0.4, -0.7, 1.1, 0.6, -0.5])
     v = np.array(mode.g(t, q))
     poses = {name: np.array(pose) for name, pose in mode.poses(t, q, v).items()}
-    hinge = poses["base"][:3] + free_cut.matrix(tuple(poses["base"])) @ [0.05, 0.02, 0.19]
+    hinge = poses["base"][:3] + cut_bodies.matrix(tuple(poses["base"])) @ [0.05, 0.02, 0.19]
     u = np.array([-math.sin(q[0]), math.cos(q[0]), 0.0])
     torque, q_ddot = 0.0, mode.accelerations(t, q, v)[1]
     for name in ("upper", "fore", "wrist", "hand"):
-        E, arm = free_cut.matrix(tuple(poses[name])), poses[name][:3] - hinge
+        E, arm = cut_bodies.matrix(tuple(poses[name])), poses[name][:3] - hinge
         mass = mode.masses[name]
         across = arm - (arm @ u) * u
         J_O = u @ E @ mass.J @ E.T @ u + mass.m * (across @ across)
@@ -194,7 +193,7 @@ P = np.array([0.13, 0.014, -0.045])  # of the hand, from its centre
 def point(mode: Mode, t: float, q: Any, v: Any) -> tuple[Any, Any, Any]:
     """P, its velocity, and the hand's long axis, in ground axes, from the hand's pose alone."""
     pose = mode.poses(t, q, v)["hand"]
-    E = free_cut.matrix(pose)
+    E = cut_bodies.matrix(pose)
     return np.array(pose[:3]) + E @ P, np.array(pose[7:10]) + E @ np.cross(pose[10:], P), E[:, 0]
 
 

@@ -7,13 +7,22 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import free_cut, scenes
-from given import spatial_laws as laws
-from given.laws import LIMIT, difference
+from given import scenes
+from given.laws import LIMIT, cut_bodies, difference
+from given.laws import spatial_laws as laws
+from given.machines.spatial import example, only, steady, variant
+from given.machines.spatial import states as states_tilting
+from given.machines.wheels import (
+    CIRCLE,
+    CLOSED,
+    FROM_ABOVE,
+    PARAMETERS,
+    WEAVE,
+    WHEEL,
+    states,
+    wheel,
+)
 from given.mutants import in_ground_axes, mutant, sound, too_fast, transposed
-from given.spatial import example, only, steady, variant
-from given.spatial import states as states_tilting
-from given.wheels import CIRCLE, CLOSED, FROM_ABOVE, PARAMETERS, WEAVE, WHEEL, states, wheel
 from mpmath import cos, exp, mp, mpf, quad
 from scipy.special import j0
 
@@ -55,7 +64,7 @@ def cut_free(mode: Any) -> float:
     """Its own loads and cuts balance, and give the reactions that it states."""
     worst = 0.0
     for t, q, v in states(mode):
-        left, found = free_cut.solved(mode, t, q, v, mode.accelerations(t, q, v))
+        left, found = cut_bodies.solved(mode, t, q, v, mode.accelerations(t, q, v))
         held = mode.reactions(t, q, v)
         couple = held["upright.mx"] * math.cos(q[2]) + held["upright.my"] * math.sin(q[2])
         known = {**held, "upright.couple": couple}
@@ -66,7 +75,7 @@ def cut_free(mode: Any) -> float:
 
 def moves(mode: Mode) -> float:
     """`poses` moves as it says, and has the energy T."""
-    return free_cut.moves(mode, states(mode))
+    return cut_bodies.moves(mode, states(mode))
 
 
 def slips(mode: Any) -> float:
@@ -74,7 +83,7 @@ def slips(mode: Any) -> float:
     worst = 0.0
     for t, q, v in states(mode):
         pose = mode.poses(t, q, v)["wheel"]
-        omega = free_cut.matrix(pose) @ np.array(pose[10:])
+        omega = cut_bodies.matrix(pose) @ np.array(pose[10:])
         rim = np.array(pose[7:10]) + np.cross(omega, [0.0, 0.0, -WHEEL["R"]])
         worst = max(worst, abs(rim).max(), abs(mode.f_a(t, q) @ v - mode.g(t, q)).max())
     return worst / 5.0  # rad/s of the states, beside lengths of one

@@ -8,11 +8,11 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from given import gimbals, robots, spatial, wheels
-from given import spatial_laws as laws
 from given.laws import difference
+from given.laws import spatial_laws as laws
+from given.machines import gimbals, robots, spatial, wheels
+from given.machines.spatial import SPATIAL, VARIANTS, closed, only, states, variant
 from given.mutants import in_ground_axes, mutant, transposed
-from given.spatial import SPATIAL, VARIANTS, closed, only, states, variant
 
 from textmech.reference.formalisms import appell, chaplygin, voronets
 from textmech.reference.motion.follow import follow

@@ -8,13 +8,12 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from given import free_cut
-from given import spatial_laws as laws
-from given.gimbals import GIMBAL, VARIANTS, gimbal
-from given.gimbals import states as states_gimbal
-from given.laws import LIMIT, difference
+from given.laws import LIMIT, cut_bodies, difference
+from given.laws import spatial_laws as laws
+from given.machines.gimbals import GIMBAL, VARIANTS, gimbal
+from given.machines.gimbals import states as states_gimbal
+from given.machines.spatial import SPATIAL, closed, example, only, states
 from given.mutants import in_ground_axes, mutant, sound
-from given.spatial import SPATIAL, closed, example, only, states
 
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.motion.follow import follow
@@ -269,11 +268,11 @@ def cut_free(mode: Mode) -> float:
     """Its loads and cuts balance, and have the moment that it states: torques and a couple."""
     worst = 0.0
     for t, q, v in states_gimbal():
-        left, found = free_cut.solved(mode, t, q, v, mode.accelerations(t, q, v))
+        left, found = cut_bodies.solved(mode, t, q, v, mode.accelerations(t, q, v))
         held = mode.reactions(t, q, v)
         ((across,), (load,)) = mode.cuts(t, q)[0].moments, mode.loads(t, q, v)
         moment = np.asarray(load.moment) + found["gimbal.couple"] * np.array(across)
-        own = free_cut.force(held, "gimbal", "mx my mz")
+        own = cut_bodies.force(held, "gimbal", "mx my mz")
         worst = max(
             worst, left, difference(moment, own), abs(found["gimbal.fz"] - held["gimbal.fz"])
         )
@@ -282,7 +281,7 @@ def cut_free(mode: Mode) -> float:
 
 def moves(mode: Mode) -> float:
     """`poses` moves as it says, and has the energy T."""
-    return free_cut.moves(mode, states_gimbal())
+    return cut_bodies.moves(mode, states_gimbal())
 
 
 def apart(mode: Mode) -> float:

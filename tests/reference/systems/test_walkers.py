@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.events import LOCATED, event_errors
-from given.examples import PARAMETERS, example
+from given.laws.events import LOCATED, event_errors
+from given.machines.examples import PARAMETERS, example
+from given.machines.walkers import ENTRIES, SLOPE, UNEVEN, WALKER, Legs, begun, returned
 from given.mutants import mutant
-from given.walkers import ENTRIES, SLOPE, UNEVEN, WALKER, Legs, begun, returned
 from scipy.optimize import root
 
 from textmech.reference.formalisms import lagrange, newton_euler

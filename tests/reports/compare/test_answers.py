@@ -12,9 +12,9 @@ import numpy as np
 import pandas as pd
 import pytest
 from given import scenes
-from given.claims import PLANE as PLANE_CLAIM
-from given.claims import claimed as claim_of
-from given.engine_space import LOPSIDED, G, hinge, rigid, simulated, spatial, state
+from given.adapters.engine_space import LOPSIDED, G, hinge, rigid, simulated, spatial, state
+from given.scenes.claims import PLANE as PLANE_CLAIM
+from given.scenes.claims import claimed as claim_of
 
 from textmech import engines
 from textmech.cases.case import Case, Deviation

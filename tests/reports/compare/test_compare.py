@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.lines import row as typed_row
-from given.lines import said
+from given.command.lines import row as typed_row
+from given.command.lines import said
 
 from textmech.cases.case import Case, Deviation
 from textmech.cases.scene import (

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from given import scenes
 from given.command import textmech
-from given.lines import said
+from given.command.lines import said
 from given.otherwise import otherwise
 from given.scenes import cases_of, parsed
 

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import pytest
 from given import scenes
-from given.one_number import OneNumber, one_number
+from given.adapters.one_number import OneNumber, one_number
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped

@@ -1,8 +1,8 @@
 """Whether an adapter is right: a planted mistake is seen at its grade, and called by its name."""
 
 import pytest
-from given.faulty import Faulty
-from given.mistaken import Mistaken
+from given.adapters.faulty import Faulty
+from given.adapters.mistaken import Mistaken
 
 from textmech import engines
 from textmech.engines.engine import Claims, Engine, Paced, Tunable, lacking

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from given.adapters.planning import SHIPPED, planned
 from given.otherwise import otherwise
-from given.planning import SHIPPED, planned
 from given.scenes import SHIPPED as CASES
 from given.scenes import cases_of, solved
 from given.scenes import scene as scene_of

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from given.pendulum import pendulum
+from given.scenes.pendulum import pendulum
 
 from textmech.cases.case import Case
 from textmech.cases.load import load

@@ -8,7 +8,7 @@ from typing import Any
 from unittest.mock import Mock
 
 import pytest
-from given import faulty, mistaken
+from given.adapters import faulty, mistaken
 from given.command import textmech
 
 from textmech import engines

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from given import scenes
 from given.command import NEW, process, textmech
-from given.lines import row
+from given.command.lines import row
 from given.otherwise import otherwise
 
 from textmech.cases.case import Case

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 from given.command import NEW, textmech
-from given.pendulum import pendulum
+from given.scenes.pendulum import pendulum
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from given.faulty import Faulty
+from given.adapters.faulty import Faulty
 
 from textmech.cases.case import Case
 from textmech.cases.find import shipped

@@ -13,7 +13,7 @@ from typing import Any
 
 import pandas as pd
 import pytest
-from given import endless
+from given.command import endless
 
 from textmech.reports.front.command import done
 from textmech.reports.tables import write
@@ -32,7 +32,7 @@ def run(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
     path = os.pathsep.join([str(ROOM), *sys.path])
     cache = {"PYTHONPATH": path, "TEXTMECH_CACHE": str(tmp_path / "cache")}
     process = subprocess.Popen(
-        [sys.executable, "-m", "given.endless", *words],
+        [sys.executable, "-m", "given.command.endless", *words],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import pytest
 from given.command import NEW, textmech
+from given.command.report_folders import ROW, report
+from given.command.trees import digest
 from given.otherwise import otherwise
-from given.report_folders import ROW, report
-from given.trees import digest
 from matplotlib.figure import Figure
 
 from textmech.reports.front.page.paint import save

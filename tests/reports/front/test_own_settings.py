@@ -10,9 +10,9 @@ import pandas as pd
 import pytest
 from click.testing import CliRunner, Result
 from given.command import textmech
-from given.lines import said
+from given.command.lines import said
 from given.otherwise import otherwise
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 from textmech.cases.case import Case
 from textmech.cases.mistake import CaseError

@@ -9,12 +9,12 @@ from typing import Any, cast
 from xml.etree import ElementTree as ET
 
 import pytest
-from given.inner import inner
-from given.lines import row
+from given.command.inner import inner
+from given.command.lines import row
+from given.command.report_folders import CERTIFICATE
 from given.otherwise import otherwise
-from given.pendulum import pendulum
-from given.report_folders import CERTIFICATE
-from given.swing import SWING, swing
+from given.scenes.pendulum import pendulum
+from given.scenes.swing import SWING, swing
 
 from textmech.cases.find import shipped
 from textmech.cases.mistake import Mistake

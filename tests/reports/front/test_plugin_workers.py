@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 pytest_plugins = ["pytester"]
 

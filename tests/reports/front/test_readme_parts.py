@@ -9,7 +9,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from given.lines import refused, row
+from given.command.lines import refused, row
 from given.otherwise import otherwise
 
 from textmech.cases import scene

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from given.lines import ladder, refused, row
+from given.command.lines import ladder, refused, row
 from given.otherwise import otherwise
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 from textmech.cases.load import load
 from textmech.reports.front.show import cures, terminal

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
+from given.command.tree import FILES, imported, module
 from given.otherwise import otherwise
-from given.tree import FILES, imported, module
 
 from textmech.cases.case import Case
 from textmech.engines import make

@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
-from given.faulty import ACTS, ANSWERS, AUDITS, PLANS, Faulty
+from given.adapters.faulty import ACTS, ANSWERS, AUDITS, PLANS, Faulty
 
 from textmech import engines
 from textmech.cases.case import Case

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 from textmech.reports.runs.processes import termination as ending
 

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
-from given.lines import row
+from given.command.lines import row
 from given.scenes import cases_of
 
 from textmech.cases.case import Case

@@ -10,9 +10,9 @@ from typing import Any
 import pandas as pd
 import pytest
 from given import scenes
-from given.lines import row as typed_row
+from given.command.lines import row as typed_row
+from given.command.tree import ROOT
 from given.otherwise import otherwise
-from given.tree import ROOT
 
 from textmech.cases.case import Case
 from textmech.cases.load import load

@@ -18,9 +18,9 @@ import numpy as np
 import pandas as pd
 import pytest
 from given.command import textmech
+from given.command.report_folders import CERTIFICATE, STEPS, report
+from given.command.report_folders import ROW as TYPED
 from given.otherwise import otherwise
-from given.report_folders import CERTIFICATE, STEPS, report
-from given.report_folders import ROW as TYPED
 
 from textmech.cases.case import Case
 from textmech.reference.certificate.agreement import Check

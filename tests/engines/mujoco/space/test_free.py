@@ -9,7 +9,16 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from given.engine_space import LOPSIDED, attitude, hinge, particle, rigid, simulated, spatial, state
+from given.adapters.engine_space import (
+    LOPSIDED,
+    attitude,
+    hinge,
+    particle,
+    rigid,
+    simulated,
+    spatial,
+    state,
+)
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import rotation

@@ -7,8 +7,8 @@ from functools import cache, partial
 
 import numpy as np
 import pytest
-from given.planning import TUNED
-from given.random_space import machine
+from given.adapters.planning import TUNED
+from given.machines.random_space import machine
 
 from textmech.cases.scene import Scene
 from textmech.cases.scene.frame import SPACE

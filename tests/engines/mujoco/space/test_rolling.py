@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 from given import scenes
-from given.engine_space import (
+from given.adapters.engine_space import (  # fmt: skip  # fmt: skip
     LOPSIDED,
     STILL,
     G,
@@ -21,8 +21,8 @@ from given.engine_space import (
     simulated,
     spatial,
     state,
-)  # fmt: skip  # fmt: skip
-from given.planning import TUNED, planned
+)
+from given.adapters.planning import TUNED, planned
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 

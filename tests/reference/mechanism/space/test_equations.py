@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from given import scenes
-from given.skew_chain import chain
+from given.machines.skew_chain import chain
 from scipy.optimize import linprog
 from scipy.spatial.transform import Rotation
 

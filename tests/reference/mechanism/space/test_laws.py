@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.free_cut import matrix
-from given.multibody_laws import balance, lagrangian
-from given.random_space import MAKES, machine
+from given.laws.cut_bodies import matrix
+from given.laws.multibody_laws import balance, lagrangian
+from given.machines.random_space import MAKES, machine
+from given.machines.space_machine import Machine, T
 from given.same_examples import examples
-from given.space_machine import Machine, T
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given import scenes, torsion
-from given.multibody_laws import EXACT, balance, lagrangian
+from given import scenes
+from given.laws.multibody_laws import EXACT, balance, lagrangian
+from given.scenes import torsion
 
 from textmech.cases.scene.observe import observe
 from textmech.reference.mechanism.forces import action, turning

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pandas as pd
 import pytest
-from given.swing import SWING
+from given.scenes.swing import SWING
 
 from textmech.cases.case import Case
 from textmech.reports.front.page.folder import folder

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from given.browser import Tab, browser, found
+from given.command.browser import Tab, browser, found
 
 from textmech.cases.case import Case
 from textmech.cases.scene.point import GROUND

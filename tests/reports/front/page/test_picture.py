@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from given.command.report_folders import RUNGS, STEPS
 from given.otherwise import otherwise
-from given.report_folders import RUNGS, STEPS
 from matplotlib.figure import Figure
 
 from textmech.cases.trajectory import Array

@@ -7,8 +7,8 @@ from typing import Any
 
 import pandas as pd
 import pytest
+from given.command.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS
 from given.otherwise import otherwise
-from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS
 
 from textmech.reports.front.page import advice as advised
 from textmech.reports.front.page import beside, heat, overview, rows

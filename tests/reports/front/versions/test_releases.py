@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from given.command.report_folders import ROW, report
 from given.otherwise import otherwise
-from given.report_folders import ROW, report
 
 from textmech.cases.mistake import CaseError, Mistake
 from textmech.reports.front.versions import measure, table

@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from given.report_folders import ROW, report
+from given.command.report_folders import ROW, report
 
 from textmech.reports.front.versions.measure import Measured
 from textmech.reports.front.versions.release import Release

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from given.command import NEW, textmech
-from given.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
+from given.command.releases import DYING, HEAVIER, LACKING, SAME, index, wheel
 
 from textmech.reports.front.versions.release import Release, here, place
 from textmech.reports.tables import run_list, write

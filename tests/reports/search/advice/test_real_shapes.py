@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from given import scenes
-from given.plain_models import BOX, CUBE, MODELS, Box
+from given.adapters.plain_models import BOX, CUBE, MODELS, Box
 
 from textmech.cases.case import Case
 from textmech.cases.language.document import read

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from given import scenes
 from given.command import NEW, textmech
-from given.lines import ladder, row
+from given.command.lines import ladder, row
 
 from textmech.reports.front.show.cures import carried
 from textmech.reports.runs.cache.store import Store

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from given import scenes
-from given.lines import LADDER, row
+from given.command.lines import LADDER, row
 from given.otherwise import otherwise
 
 from textmech import engines

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 import pytest
-from given.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS, report
+from given.command.report_folders import CERTIFICATE, COVERED, INSTANT, ROW, RUNGS, STEPS, report
 
 from textmech.cases.mistake import CaseError
 from textmech.reports.tables import write

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from given.command import textmech
-from given.report_folders import ROW, report
+from given.command.report_folders import ROW, report
 
 from textmech.reports.tables import write
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from given.command import textmech
-from given.damage import damaged as accidents
-from given.report_folders import COVERED, ROW, RUNGS, damaged, report
+from given.command.report_folders import COVERED, ROW, RUNGS, damaged, report
+from given.scenes.damage import damaged as accidents
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

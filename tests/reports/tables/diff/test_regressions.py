@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 from given.command import textmech
+from given.command.report_folders import CERTIFICATE, ROW, report
 from given.otherwise import otherwise
-from given.report_folders import CERTIFICATE, ROW, report
 
 from textmech.reports.tables.diff import columns, compare, forms
 from textmech.reports.tables.diff.columns import NEW, WORSE, Rule

@@ -12,7 +12,7 @@ from scipy.special import ellipj, ellipk
 from textmech.cases.scene import Bounds
 from textmech.cases.trajectory import Array
 
-from .engine_scenes import RADIUS, G
+from ..adapters.engine_scenes import RADIUS, G
 
 
 def pendulum(times: Array) -> tuple[Array, Array]:

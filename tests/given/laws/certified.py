@@ -12,7 +12,7 @@ from textmech.reference.motion.follow import TOLERANCE, either, follow
 from textmech.reference.solve import Solution, reactions_of
 from textmech.reference.system import System
 
-from . import scenes
+from .. import scenes
 
 
 def certified(

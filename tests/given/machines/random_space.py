@@ -16,7 +16,7 @@ from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Freedom, Joint
 from textmech.reference.system import Array
 
-from .engine_space import particle, rigid, unit, vector
+from ..adapters.engine_space import particle, rigid, unit, vector
 from .space_machine import Machine, T
 from .spatial_motions import turn
 

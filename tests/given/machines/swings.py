@@ -11,8 +11,8 @@ from textmech.reference.motion.bodies import Answer
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Only
 
-from .engine_scenes import chain, on_a_swing
-from .planning import moved
+from ..adapters.engine_scenes import chain, on_a_swing
+from ..adapters.planning import moved
 
 
 def generated(scene: Scene, poses: Start, times: Array) -> Trajectory:

@@ -1,7 +1,8 @@
 """Which law sees a parameter that is 5 % off in a hand-written system that never switches."""
 
-from . import laws, rotors, slowed
-from .laws import Law
+from .. import laws
+from ..scenes import slowed
+from . import Law, rotors
 
 # Which law sees a parameter that is 5 % off in the explicit accelerations and reactions only.
 # Where a mass drops out of the motion, the reactions tell.

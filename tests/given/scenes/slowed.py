@@ -3,8 +3,8 @@
 And which law sees a parameter that is 5 % off in the hand-written systems of that kind.
 """
 
-from . import laws
-from .laws import Law
+from .. import laws
+from ..laws import Law
 
 SLOWED = """\
 scene:

@@ -14,9 +14,9 @@ from textmech.reference.formalisms.derivative import along
 from textmech.reference.motion.follow import follow
 from textmech.reference.system import Array, System
 
-from .examples import MODES, PARAMETERS, example
-from .starts import STARTS
-from .states import states
+from ..machines.examples import MODES, PARAMETERS, example
+from ..machines.states import states
+from ..scenes.starts import STARTS
 from .unknowns import APPLIED, MULTIPLIERS, RESIDUALS
 
 At = tuple[str, str]

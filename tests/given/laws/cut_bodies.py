@@ -11,7 +11,7 @@ import numpy as np
 from textmech.reference.formalisms.derivative import along
 from textmech.reference.system import Array, Mode, Pose
 
-from .laws import difference
+from . import difference
 from .spatial_laws import matrix as of_quaternion
 
 Wrench = tuple[str, Any, Any, Any]

@@ -8,8 +8,8 @@ import numpy as np
 from textmech.reference.laws.momentum import spin_rate
 from textmech.reference.system import Array, Mode, Only, Pose, Vector
 
-from .momenta import Acting, System, spatial
-from .spatial_laws import matrix
+from ..laws.momenta import Acting, System, spatial
+from ..laws.spatial_laws import matrix
 
 G = np.array([0.0, 0.0, -9.80665])
 MASSES = (1.3, 0.7)

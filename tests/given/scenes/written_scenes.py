@@ -4,7 +4,7 @@ from pathlib import Path
 
 from textmech.cases.case import Case
 
-from . import scenes
+from .. import scenes
 
 DISK = """\
 {system}

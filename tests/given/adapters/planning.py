@@ -20,8 +20,8 @@ from textmech.engines.point_forces import LIVING, TOLD
 from textmech.reference.solve import solve
 from textmech.reports.compare.trial.start import assembled
 
-from .scenes import SHIPPED as EVERY
-from .scenes import typed
+from ..scenes import SHIPPED as EVERY
+from ..scenes import typed
 
 CASES = {name: case for name, case in EVERY.items() if case.scene.frame is PLANE}
 """The shipped cases in the plane, which every engine builds."""

@@ -5,9 +5,8 @@ import numpy as np
 from textmech.reference.formalisms import energy, lagrange
 from textmech.reference.system import Mode
 
-from . import free_cut
-from .laws import difference
-from .robots import states
+from ..machines.robots import states
+from . import cut_bodies, difference
 
 EDGE = {"blade.normal", "blade.force"}
 MULTIPLIERS = ("blade.normal", "blade.force", *(f"q{k}.torque" for k in range(1, 6)))
@@ -30,14 +29,14 @@ def cut_free(mode: Mode) -> float:
     """(2.23), (2.27) of all bodies cut free: they balance, and give the reactions it states."""
     worst = 0.0
     for t, q, v in states(mode):
-        left, found = free_cut.solved(mode, t, q, v, mode.accelerations(t, q, v))
+        left, found = cut_bodies.solved(mode, t, q, v, mode.accelerations(t, q, v))
         held, own, theirs = mode.reactions(t, q, v), [], []
         for joint, cut in zip(mode.coordinates, mode.cuts(t, q), strict=False):
             own += [held[f"{joint}.{field}"] for field in ["fx", "fy", "fz", "mx", "my", "mz"]]
             one, other = (np.array(axis) for axis in cut.moments)
             moment = found[f"{joint}.across1"] * one + found[f"{joint}.across2"] * other
             moment = moment + found.get(f"{joint}.torque", 0.0) * np.cross(one, other)
-            theirs += [*free_cut.force(found, joint, "fx fy fz"), *moment]
+            theirs += [*cut_bodies.force(found, joint, "fx fy fz"), *moment]
         for name in EDGE & held.keys():
             own, theirs = [*own, held[name]], [*theirs, found[name]]
         worst = max(worst, left, difference(own, theirs))
@@ -46,7 +45,7 @@ def cut_free(mode: Mode) -> float:
 
 def moves(mode: Mode) -> float:
     """`poses` moves as it says, and has the energy T."""
-    return free_cut.moves(mode, states(mode))
+    return cut_bodies.moves(mode, states(mode))
 
 
 def power(mode: Mode) -> float:

@@ -12,7 +12,7 @@ from textmech.cases.scene import Scene, Signal
 from textmech.cases.trajectory import Array
 from textmech.engines.engine import Start
 
-from .engine_space import hinge, rigid, spatial, state
+from ..adapters.engine_space import hinge, rigid, spatial, state
 from .spatial_motions import turn
 
 G = np.array([0.0, 0.0, -9.80665])

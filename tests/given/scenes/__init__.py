@@ -45,7 +45,7 @@ def mechanism(case: Case) -> Any:
     return generated(case)
 
 
-SCENES = Path(__file__).parents[1] / "scenes"
+SCENES = Path(__file__).parents[2] / "scenes"
 
 
 def scene_text(name: str, changes: Mapping[str, Any] | str | None = None, **parameters: Any) -> str:

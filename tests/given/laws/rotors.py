@@ -1,7 +1,7 @@
 """Which law sees a parameter of the paired rotors that is 5 % off."""
 
-from . import laws
-from .laws import Law
+from .. import laws
+from . import Law
 
 SEEN_BY: dict[str, dict[str, Law]] = {
     "paired_rotors": {

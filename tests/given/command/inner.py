@@ -8,7 +8,7 @@ import pytest
 
 from textmech.reports.front import session  # noqa: F401
 
-from .forked import forked
+from ..forked import forked
 
 
 def inner(pytester: pytest.Pytester, *words: str) -> pytest.RunResult:

@@ -1,7 +1,7 @@
 """The command with an engine that never ends, run in a process of its own to be struck.
 
-`python -m given.endless <folder> <words of the command>`; the folder gets a file for each process
-that is at work, named by its number.
+`python -m given.command.endless <folder> <words of the command>`; the folder gets a file for each
+process that is at work, named by its number.
 """
 
 import os

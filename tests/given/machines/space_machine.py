@@ -15,7 +15,7 @@ from textmech.cases.scene.joint import Joint
 from textmech.reference.mechanism.modes.spatial_mode import SpatialMultibody
 from textmech.reference.system import Array
 
-from .engine_space import point, unit, vector
+from ..adapters.engine_space import point, unit, vector
 
 GRAVITY = (0.8, -1.3, -9.6)  # not along an axis, so that no component can hide
 T = 0.13  # s: laws in time are neither at zero nor at rest
