@@ -110,8 +110,8 @@ def _another_kind(word: str) -> list[Mistake]:
     file = Path(word)
     if not file.is_file():
         return []
-    if model := _model(file):
-        return [Mistake(word, 0, 0, "", model)]
+    if root := xml_root(file):
+        return [Mistake(word, 0, 0, "", _no_case(root))]
     try:
         keys = set(read(file).data)
     except CaseError:
@@ -125,18 +125,29 @@ MODELS = {"mujoco": "an MJCF model", "robot": "a URDF model", "sdf": "an SDF mod
 """What a file of XML is, by the name of its root element."""
 
 
-def _model(file: Path) -> str:
-    """The words for a file that is XML; an empty text for any other."""
+def xml_root(file: Path) -> str:
+    """Returns the root element of a file that is XML; an empty text for any other."""
     try:
-        root = next(iterparse(file, events=("start",)))[1].tag.rpartition("}")[2]
+        return next(iterparse(file, events=("start",)))[1].tag.rpartition("}")[2]
     except (ParseError, StopIteration, OSError, ValueError, LookupError):  # as of its encoding
         return ""
+
+
+def is_model(file: Path) -> bool:
+    """Whether it is a model that MuJoCo compiles: `mujoco` or, of URDF, `robot` is its root."""
+    return xml_root(file) in ("mujoco", "robot")
+
+
+def _no_case(root: str) -> str:
+    """Returns why XML with this root is no case, in words."""
     kind = MODELS.get(root, f"XML with the root <{root}>")
-    written = "; `textmech show CASE --engine mujoco` writes MJCF" if root == "mujoco" else ""
-    return (
-        f"is {kind}; textmech reads cases as YAML, where the scene is written in words of its own "
-        f"(cases/README.md){written}"
+    checks = (
+        "`textmech check` compares its equations with the textbook's; all else reads cases as YAML"
+        if root in ("mujoco", "robot")
+        else "textmech reads cases as YAML"
     )
+    written = "; `textmech show CASE --engine mujoco` writes MJCF" if root == "mujoco" else ""
+    return f"is {kind}; {checks}, where the scene is in words of its own (cases/README.md){written}"
 
 
 def nameable(word: str) -> None:

@@ -2,7 +2,8 @@
 
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from ....cases.case import Case
     from ....engines.engine import Engine
     from ....reference.certificate.agreement import Check
+    from ...compare.own_equations import Part
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,8 @@ class Checked:
     """A file's cases by name, its mistakes, and (case, check) of each check that does not hold.
 
     otherwise: sentences, of cases whose hand-written system moves as another scene would. warnings:
-    (case, sentence) of what a motion shows that is no mistake, and most likely not meant.
+    (case, sentence) of what a motion shows that is no mistake, and most likely not meant. model:
+    what a user's own model is, with the parts of its equations.
     """
 
     file: str
@@ -31,6 +34,13 @@ class Checked:
     broken: Sequence[tuple[str, "Check"]]
     otherwise: Sequence[str] = ()
     warnings: Sequence[tuple[str, str]] = ()
+    model: str = ""
+    parts: Sequence["Part"] = ()
+
+    @property
+    def fails(self) -> bool:
+        """Whether a check of a reference, or a part of a model's equations, does not hold."""
+        return bool(self.broken) or not all(part.holds for part in self.parts)
 
 
 @click.command()
@@ -39,7 +49,15 @@ class Checked:
 @as_json
 @allow_long
 def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long: bool) -> None:
-    """All mistakes of case files, and checks of their references; no engine is run."""
+    """All mistakes of case files, and checks of their references; no engine is run.
+
+    Of an MJCF or URDF file what MuJoCo compiles: its mass matrix, its bias, its passive and its
+    actuator forces are compared with the textbook's at a hundred states.
+
+    \b
+      textmech check my_case.yaml
+      textmech check robot.xml
+    """
     from ...runs.processes.pool import workers
     from ...runs.selection import choose_engines
     from ..show.document import write
@@ -49,7 +67,7 @@ def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long
         engines = choose_engines([], [])
     found = _checked(files, engines, jobs or workers(), long=allow_long)
     mistakes = [mistake for one in found for mistake in one.mistakes]
-    code = BAD_INPUT if mistakes else FAILED if any(one.broken for one in found) else 0
+    code = BAD_INPUT if mistakes else FAILED if any(one.fails for one in found) else 0
     if wants_json:
         write({"files": [_document(one) for one in found], "exit_code": code})
         raise click.exceptions.Exit(code)
@@ -67,12 +85,15 @@ def _checked(
     """Each of the files; solved in processes of their own, each with its share of the memory."""
     from ...compare.trial.work import too_long
     from ...runs.processes.pool import Died, local, spread
-    from ...runs.selection import choose_cases
+    from ...runs.selection import choose_cases, is_model
     from ..show.progress import progress
 
     found: dict[int, Checked] = {}
-    tasks: dict[int, _Task] = {}
+    tasks: dict[int, _Task | _Model] = {}
     for place, file in enumerate(files):
+        if is_model(Path(file)):
+            tasks[place] = _Model(file, str(Path(file).resolve()))
+            continue
         try:
             cases = choose_cases([file], long=long)
             if wrong := too_long(cases, engines):
@@ -85,7 +106,7 @@ def _checked(
         alone = len(files) == 1  # no file is done before it
         with progress(quiet=alone) as told, local(min(jobs, len(tasks))) as working:
             told.watch(working)
-            for index, one in spread(_solved, list(tasks.values()), working):
+            for index, one in spread(_done, list(tasks.values()), working):
                 file = tasks[place := places[index]].name
                 if isinstance(one, Died):
                     why = Mistake(file, 0, 0, "", f"could not be checked: {one.because}")
@@ -101,6 +122,31 @@ class _Task:
 
     name: str
     cases: "Sequence[Case]"
+
+
+@dataclass(frozen=True)
+class _Model:
+    """A user's own model, by the name that was typed, and where it is."""
+
+    name: str
+    path: str
+
+
+def _done(task: _Task | _Model) -> Checked:
+    return _compared(task) if isinstance(task, _Model) else _solved(task)
+
+
+def _compared(task: _Model) -> Checked:
+    """Compiles a model and compares its equations; what does not compile is a mistake."""
+    from ....engines.mujoco.own_model.model import compiled
+    from ...compare.own_equations import equations
+
+    try:
+        model = compiled(task.path)
+    except CaseError as error:
+        mistakes = [replace(mistake, file=task.name) for mistake in error.mistakes]
+        return Checked(task.name, [], mistakes, [])
+    return Checked(task.name, [], [], [], model=str(model), parts=equations(model))
 
 
 def _solved(task: _Task) -> Checked:
@@ -130,6 +176,12 @@ def _solved(task: _Task) -> Checked:
 
 
 def _lines(one: Checked) -> Iterator[str]:
+    if one.model:
+        from ...compare.own_equations import told
+
+        yield f"{one.file}: {one.model}"
+        yield from told(one.parts)
+        return
     for what in dict.fromkeys(one.otherwise):
         yield f"{one.file}: FAILS: {what}"
     for _, broken in one.broken:
@@ -146,6 +198,9 @@ def _lines(one: Checked) -> Iterator[str]:
 def _document(one: Checked) -> dict[str, object]:
     from ..show.document import mistakes
 
+    if one.model:
+        parts = [asdict(part) | {"holds": part.holds} for part in one.parts]
+        return {"file": one.file, "model": one.model, "mistakes": [], "equations": parts}
     return {
         "file": one.file,
         "cases": list(one.cases),

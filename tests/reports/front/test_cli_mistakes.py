@@ -1,5 +1,6 @@
 """What a mistake, a disk, a terminal or a file name costs: its own file, and an exit code."""
 
+import json
 import os
 import subprocess
 import sys
@@ -158,7 +159,11 @@ def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: st
     with pytest.raises(CaseError) as error:
         load(file)
     (mistake,) = error.value.mistakes
-    assert mistake.what.startswith(f"is {told}; textmech reads cases as YAML")
+    assert mistake.what.startswith(f"is {told}; ")
+    assert "reads cases as YAML" in mistake.what
+    assert ("`textmech check` compares" in mistake.what) == (
+        told in ("an MJCF model", "a URDF model")
+    )
     assert ("show CASE --engine mujoco` writes MJCF" in mistake.what) == ("MJCF model" in told)
 
 
@@ -166,19 +171,42 @@ def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: st
 def test_every_command_tells_a_model_as_one(tmp_path: Path) -> None:
     (tmp_path / "model.xml").write_text("<mujoco/>\n", encoding="utf-8")
     for words in (
-        "run", "check", "advise", "causes", "show --engine mujoco", "plot --out x.svg",
+        "run", "advise", "causes", "show --engine mujoco", "plot --out x.svg",
         "page --out x.html",
     ):  # fmt: skip
         done = textmech(*words.split(), "model.xml", folder=tmp_path)
         assert done.returncode == 2, words
-        assert done.stderr.startswith("model.xml: is an MJCF model; textmech reads cases as YAML")
+        assert done.stderr.startswith("model.xml: is an MJCF model; `textmech check` compares its")
+
+
+ROBOT = """\
+<mujoco><worldbody><body><joint name="swing" axis="0 1 0"/><geom size=".1" pos="0 0 -1"/></body>
+</worldbody></mujoco>"""
+
+
+@pytest.mark.slow
+def test_check_compares_a_models_equations(tmp_path: Path) -> None:
+    (tmp_path / "robot.xml").write_text(ROBOT, encoding="utf-8")
+    (tmp_path / "torn.xml").write_text("<mujoco><worldbody>", encoding="utf-8")
+    done = textmech("check", "robot.xml", folder=tmp_path)
+    assert done.returncode == 0
+    first, *parts = done.stdout.splitlines()
+    assert first.startswith("robot.xml: MuJoCo ")
+    assert first.endswith("compiles it: 1 body, 1 joint, 1 degree of freedom; own step 2 ms, euler")
+    assert all("from the textbook's, at 100 states" in part for part in parts)
+    assert [part.split("  ")[1] for part in parts] == ["mass matrix", "bias", "passive forces"]
+    both = textmech("check", "robot.xml", "torn.xml", "--json", folder=tmp_path)
+    told = json.loads(both.stdout)
+    assert both.returncode == told["exit_code"] == 2
+    assert [part["holds"] for part in told["files"][0]["equations"]] == [True] * 4
+    assert "does not compile it" in told["files"][1]["mistakes"][0]["what"]
 
 
 @pytest.mark.mutant("a model of an engine is read as YAML")
 def test_a_model_that_is_read_as_a_case_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(selection, "_model", lambda file: "")
+    monkeypatch.setattr(selection, "xml_root", lambda file: "")
     file = tmp_path / "model.xml"
     file.write_text("<mujoco>\n  <worldbody/>\n</mujoco>\n", encoding="utf-8")
     with pytest.raises(CaseError, match="should be a map of keys") as error:

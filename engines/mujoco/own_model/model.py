@@ -1,0 +1,120 @@
+"""A user's model: compiled, or refused in the compiler's words, and what MuJoCo says of states."""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import mujoco
+import numpy as np
+
+from ....cases.mistake import CaseError, Mistake
+from ....cases.trajectory import Array
+from ....cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
+from .numbers import numbers
+
+LINE = re.compile(r"[Ll]ine(?: number)?[ =](\d+)")
+RATE = 0.5  # rad/s, m/s: of rates that are drawn, so that no term of an equation rests
+REACH = 0.5  # rad, m: how far coordinates are drawn about the start
+
+
+@dataclass(frozen=True)
+class State:
+    """Coordinates q (m,), velocities v (n,), and controls u."""
+
+    q: Array
+    v: Array
+    u: Array
+
+
+@dataclass(frozen=True)
+class OwnModel:
+    """A compiled model, and the file that it is of."""
+
+    file: str
+    model: mujoco.MjModel
+
+    @cached_property
+    def tree(self) -> Tree:
+        """The model's numbers."""
+        return numbers(self.model)
+
+    def start(self) -> mujoco.MjData:
+        """Returns the first keyframe, or where the model stands by itself, with its controls."""
+        data = mujoco.MjData(self.model)
+        if self.model.nkey:
+            mujoco.mj_resetDataKeyframe(self.model, data, 0)
+        return data
+
+    def moving(self, duration: float) -> Iterator[State]:
+        """Yields the states at its own steps from the start on, as far as they are numbers [s]."""
+        data = self.start()
+        for _ in range(int(duration / self.model.opt.timestep)):
+            mujoco.mj_step(self.model, data)
+            if any(int(data.warning[kind].number) for kind in BROKEN):
+                return
+            yield State(data.qpos.copy(), data.qvel.copy(), data.ctrl.copy())
+
+    def drawn(self, count: int, seed: int = 0) -> Iterator[State]:
+        """Yields so many states about the start, with rates, and controls within their range."""
+        random, start, m = np.random.default_rng(seed), self.start(), self.model
+        low, high = m.actuator_ctrlrange.T if m.nu else (np.zeros(0), np.zeros(0))
+        bounded = np.array(m.actuator_ctrllimited, dtype=bool)
+        for _ in range(count):
+            q = start.qpos.copy()
+            mujoco.mj_integratePos(m, q, random.uniform(-REACH, REACH, m.nv), 1.0)
+            u = random.uniform(np.where(bounded, low, -1.0), np.where(bounded, high, 1.0))
+            yield State(q, random.uniform(-RATE, RATE, m.nv), u)
+
+    def parts(self, state: State) -> Mapping[str, Array]:
+        """Returns MuJoCo's own parts of the equations of motion in a state."""
+        m, data = self.model, self.start()
+        data.qpos[:], data.qvel[:], data.ctrl[:] = state.q, state.v, state.u
+        mujoco.mj_fwdPosition(m, data)
+        mujoco.mj_fwdVelocity(m, data)
+        mujoco.mj_fwdActuation(m, data)
+        M = np.zeros((m.nv, m.nv))
+        mujoco.mj_fullM(m, data, M)
+        own = {BIAS: data.qfrc_bias, PASSIVE: data.qfrc_passive, DRIVEN: data.qfrc_actuator}
+        return {MASS: M} | {part: np.array(values) for part, values in own.items()}
+
+    def __str__(self) -> str:
+        m = self.model
+        integrator = mujoco.mjtIntegrator(m.opt.integrator).name.removeprefix("mjINT_")
+        counted = {"body": m.nbody - 1, "joint": m.njnt, "degree of freedom": m.nv}
+        counted |= {"actuator": m.nactuator, "equality": m.neq}
+        words = ", ".join(_count(word, number) for word, number in counted.items() if number)
+        step = f"{m.opt.timestep * 1e3:.4g} ms, {integrator.lower()}"
+        return (
+            f"MuJoCo {mujoco.__version__} compiles it: {words or 'nothing moves'}; own step {step}"
+        )
+
+
+PLURALS = {"body": "bodies", "degree of freedom": "degrees of freedom", "equality": "equalities"}
+WARNINGS = mujoco.mjtWarning
+BROKEN = (WARNINGS.mjWARN_BADQPOS, WARNINGS.mjWARN_BADQVEL, WARNINGS.mjWARN_BADQACC)
+
+
+def _count(word: str, number: int) -> str:
+    return f"{number} {word if number == 1 else PLURALS.get(word, f'{word}s')}"
+
+
+def compiled(file: str) -> OwnModel:
+    """Compiles an MJCF or URDF file. Raises CaseError with the compiler's words and line."""
+    return _compiled(file, lambda: mujoco.MjModel.from_xml_path(file))
+
+
+def compiled_text(text: str, name: str = "MJCF") -> OwnModel:
+    """Compiles the text of a model; name: what it is called. Raises CaseError as `compiled`."""
+    return _compiled(name, lambda: mujoco.MjModel.from_xml_string(text))
+
+
+def _compiled(file: str, compile_: Callable[[], mujoco.MjModel]) -> OwnModel:
+    try:
+        return OwnModel(file, compile_())
+    except (ValueError, OSError, mujoco.FatalError) as error:
+        words = " ".join(str(error).split())
+        line = LINE.search(words)
+        said = f"MuJoCo {mujoco.__version__} does not compile it: {words}"
+        place = (int(line[1]), 1) if line else (0, 0)
+        raise CaseError([Mistake(file, *place, "", said)]) from None

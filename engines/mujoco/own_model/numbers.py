@@ -1,0 +1,223 @@
+"""The numbers of a compiled model, for whoever writes its equations down without MuJoCo."""
+
+from collections.abc import Iterable, Iterator
+
+import mujoco
+import numpy as np
+
+from ....cases.trajectory import Array
+from ....cases.tree import (
+    BIAS,
+    DRIVEN,
+    MASS,
+    PARTS,
+    PASSIVE,
+    Kind,
+    Line,
+    Link,
+    Motor,
+    Places,
+    Tree,
+    TreeJoint,
+)
+
+KINDS: dict[int, Kind] = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
+DISABLED, ENABLED = mujoco.mjtDisableBit, mujoco.mjtEnableBit
+OBJECT = mujoco.mjtObj
+GAINS = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE)
+BIASES = (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE)
+JOINTS = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+
+
+def numbers(model: mujoco.MjModel) -> Tree:
+    """Returns the model's numbers; `unread` of them tells what no equation of a tree says."""
+    m, flags = model, model.opt.disableflags
+    springs, damps = not flags & DISABLED.mjDSBL_SPRING, not flags & DISABLED.mjDSBL_DAMPER
+    weight = np.zeros(3) if flags & DISABLED.mjDSBL_GRAVITY else np.array(m.opt.gravity)
+    links = [_link(m, body) for body in range(1, m.nbody)]
+    joints = {joint.v: joint for link in links for joint in link.joints}
+    acts = not flags & DISABLED.mjDSBL_ACTUATION
+    return Tree(
+        links,
+        m.nv,
+        weight,
+        np.array(m.dof_armature),
+        np.array(m.dof_damping) if damps else np.zeros(m.nv),
+        [*_springs(m, joints)] if springs else (),
+        [_line(m, i, springs=springs, damps=damps) for i in fixed_tendons(m)],
+        [_motor(m, i) for i in range(m.nu) if acts and _reads(m, i)],
+        _clamped(m),
+        np.array([bool(m.jnt_actgravcomp[j]) for j in m.dof_jntid], dtype=bool),
+        _unread(m),
+    )
+
+
+def named(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
+    """Returns what an element is called; its number, if it has no name."""
+    return mujoco.mj_id2name(model, kind, number) or f"#{number}"
+
+
+def _link(m: mujoco.MjModel, body: int) -> Link:
+    R = np.zeros(9)
+    mujoco.mju_quat2Mat(R, m.body_iquat[body])
+    R = R.reshape(3, 3)
+    mocap = m.body_mocapid[body] >= 0
+    first = m.body_jntadr[body]
+    return Link(
+        named(m, OBJECT.mjOBJ_BODY, body),
+        int(m.body_parentid[body]) - 1,
+        np.array(m.body_pos[body]),
+        np.array(m.body_quat[body]),
+        0.0 if mocap else float(m.body_mass[body]),
+        np.array(m.body_ipos[body]),
+        R @ np.diag(m.body_inertia[body]) @ R.T,
+        [_joint(m, j) for j in range(first, first + m.body_jntnum[body])],
+        float(m.body_gravcomp[body]),
+    )
+
+
+def _joint(m: mujoco.MjModel, j: int) -> TreeJoint:
+    return TreeJoint(
+        named(m, OBJECT.mjOBJ_JOINT, j),
+        KINDS[int(m.jnt_type[j])],
+        int(m.jnt_qposadr[j]),
+        int(m.jnt_dofadr[j]),
+        np.array(m.jnt_pos[j]),
+        np.array(m.jnt_axis[j]),
+        float(m.qpos0[m.jnt_qposadr[j]]),
+    )
+
+
+def _springs(
+    m: mujoco.MjModel, joints: dict[int, TreeJoint]
+) -> Iterator[tuple[TreeJoint, float, Array]]:
+    for j in np.flatnonzero(m.jnt_stiffness):
+        joint = joints[int(m.jnt_dofadr[j])]
+        wide = {"free": 7, "ball": 4}.get(joint.kind, 1)
+        rest = np.array(m.qpos_spring[joint.q : joint.q + wide])
+        yield joint, float(m.jnt_stiffness[j]), rest
+
+
+def fixed_tendons(m: mujoco.MjModel) -> list[int]:
+    """Returns the numbers of tendons whose length is a sum of coordinates."""
+    joint = mujoco.mjtWrap.mjWRAP_JOINT
+    return [i for i in range(m.ntendon) if mujoco.mjtWrap(m.wrap_type[m.tendon_adr[i]]) == joint]
+
+
+def _sum(m: mujoco.MjModel, tendon: int) -> Array:
+    found = np.zeros(m.nv)
+    for k in range(m.tendon_adr[tendon], m.tendon_adr[tendon] + m.tendon_num[tendon]):
+        found[m.jnt_dofadr[m.wrap_objid[k]]] += m.wrap_prm[k]
+    return found
+
+
+def _places(m: mujoco.MjModel) -> Places:
+    """(nv,) int: of each velocity of a hinge or slide its coordinate; of others the first."""
+    return np.array([m.jnt_qposadr[j] for j in m.dof_jntid], dtype=np.intp)
+
+
+def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
+    return Line(
+        named(m, OBJECT.mjOBJ_TENDON, i),
+        _sum(m, i),
+        _places(m),
+        (float(m.tendon_lengthspring[i, 0]), float(m.tendon_lengthspring[i, 1])),
+        float(m.tendon_stiffness[i]) if springs else 0.0,
+        float(m.tendon_damping[i]) if damps else 0.0,
+        float(m.tendon_armature[i]),
+    )
+
+
+def _reads(m: mujoco.MjModel, i: int) -> bool:
+    """Whether an actuator is a function of its control, of a hinge, a slide or a fixed tendon."""
+    return not _strange(m, i)
+
+
+def _strange(m: mujoco.MjModel, i: int) -> str:
+    """Returns what of an actuator is read by no equation here, in words; or nothing."""
+    target, transmission = m.actuator_trnid[i, 0], mujoco.mjtTrn(m.actuator_trntype[i])
+    if mujoco.mjtDyn(m.actuator_dyntype[i]) != mujoco.mjtDyn.mjDYN_NONE:
+        return "a state of its own"
+    if mujoco.mjtGain(m.actuator_gaintype[i]) not in GAINS:
+        return "another gain than an affine one"
+    if mujoco.mjtBias(m.actuator_biastype[i]) not in BIASES:
+        return "another bias than an affine one"
+    if transmission == mujoco.mjtTrn.mjTRN_TENDON:
+        return "" if target in fixed_tendons(m) else "a spatial tendon"
+    if transmission not in JOINTS:
+        return "another transmission than a joint or a tendon"
+    return "" if KINDS[int(m.jnt_type[target])] in ("slide", "hinge") else "a ball or free joint"
+
+
+def _motor(m: mujoco.MjModel, i: int) -> Motor:
+    target = m.actuator_trnid[i, 0]
+    if mujoco.mjtTrn(m.actuator_trntype[i]) == mujoco.mjtTrn.mjTRN_TENDON:
+        moments = _sum(m, target)
+    else:
+        moments = np.zeros(m.nv)
+        moments[m.jnt_dofadr[target]] = 1.0
+    clamps = m.actuator_ctrllimited[i] and not m.opt.disableflags & DISABLED.mjDSBL_CLAMPCTRL
+    affine = mujoco.mjtGain(m.actuator_gaintype[i]) == mujoco.mjtGain.mjGAIN_AFFINE
+    biased = mujoco.mjtBias(m.actuator_biastype[i]) == mujoco.mjtBias.mjBIAS_AFFINE
+    off = m.opt.disableactuator & (1 << int(m.actuator_group[i])) if m.actuator_group[i] >= 0 else 0
+    gain = np.array(m.actuator_gainprm[i, :3])
+    return Motor(
+        named(m, OBJECT.mjOBJ_ACTUATOR, i),
+        np.zeros(m.nv) if off else moments * m.actuator_gear[i, 0],
+        _places(m),
+        gain if affine else gain * [1.0, 0.0, 0.0],
+        np.array(m.actuator_biasprm[i, :3]) if biased else np.zeros(3),
+        _range(m.actuator_ctrlrange[i], clamps),
+        _range(m.actuator_forcerange[i], m.actuator_forcelimited[i]),
+    )
+
+
+def _range(pair: Array, limited: bool) -> tuple[float, float]:
+    return (float(pair[0]), float(pair[1])) if limited else (-np.inf, np.inf)
+
+
+def _clamped(m: mujoco.MjModel) -> Array:
+    found = np.tile([-np.inf, np.inf], (m.nv, 1))
+    for j in np.flatnonzero(m.jnt_actfrclimited):
+        if KINDS[int(m.jnt_type[j])] in ("slide", "hinge"):
+            found[m.jnt_dofadr[j]] = m.jnt_actfrcrange[j]
+    return found
+
+
+def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
+    """Returns what the model has beside, by the part of the equations that lacks it."""
+    found: dict[str, list[str]] = {part: [] for part in PARTS}
+    joint, tendon, actuator = OBJECT.mjOBJ_JOINT, OBJECT.mjOBJ_TENDON, OBJECT.mjOBJ_ACTUATOR
+
+    def add(part: str, kind: mujoco.mjtObj, numbers: Iterable[int], what: str) -> None:
+        word = {joint: "joint", tendon: "tendon", actuator: "actuator"}[kind]
+        found[part] += [f"{word} {named(m, kind, i)}: {what}" for i in numbers]
+
+    for i in range(m.nactuator):
+        if what := _strange(m, i):
+            add(DRIVEN, actuator, [i], what)
+    spatial = [i for i in range(m.ntendon) if i not in fixed_tendons(m)]
+    pulls = (m.tendon_stiffness != 0) | (m.tendon_damping != 0)
+    add(PASSIVE, tendon, [i for i in spatial if pulls[i]], "a spring or damper in space")
+    heavy = [i for i in spatial if m.tendon_armature[i]]
+    add(MASS, tendon, heavy, "an armature in space")
+    add(BIAS, tendon, heavy, "an armature in space")
+    add(DRIVEN, tendon, np.flatnonzero(m.tendon_actfrclimited), "a bound of all its actuators")
+    for kind, stiff in ((joint, m.jnt_stiffnesspoly), (tendon, m.tendon_stiffnesspoly)):
+        add(PASSIVE, kind, np.flatnonzero(stiff.any(axis=1)), "a stiffness that is no constant")
+    soft = {int(m.dof_jntid[i]) for i in np.flatnonzero(m.dof_dampingpoly.any(axis=1))}
+    add(PASSIVE, joint, sorted(soft), "a damping that is no constant")
+    curved = np.flatnonzero(m.tendon_dampingpoly.any(axis=1))
+    add(PASSIVE, tendon, curved, "a damping that is no constant")
+    for kind, bends in ((joint, m.jnt_plasticadr), (tendon, m.tendon_plasticadr)):
+        add(PASSIVE, kind, np.flatnonzero(bends >= 0), "a spring that yields")
+    damped = (m.actuator_damping != 0) | m.actuator_dampingpoly.any(axis=1)
+    add(PASSIVE, actuator, np.flatnonzero(damped), "a damping of its own")
+    add(MASS, actuator, np.flatnonzero(m.actuator_armature), "an armature of its own")
+    if m.opt.density or m.opt.viscosity:
+        found[PASSIVE].append("option: a fluid (density, viscosity)")
+    if m.nflex:
+        found[PASSIVE].append(f"flex: {m.nflex} of them")
+    for plugin in range(m.nplugin):
+        found[PASSIVE].append(f"plugin {named(m, OBJECT.mjOBJ_PLUGIN, plugin)}")
+    return {part: words for part, words in found.items() if words}

@@ -1,0 +1,185 @@
+"""The equations of users' models against the textbook's: random ones, public ones, and mistakes."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from given.machines.random_models import random_model
+from given.otherwise import otherwise
+
+from textmech.cases.mistake import CaseError
+from textmech.cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Link, Tree
+from textmech.engines.mujoco.own_model.model import compiled, compiled_text
+from textmech.reference.formalisms import tree_equations
+from textmech.reports.compare import own_equations
+from textmech.reports.compare.own_equations import equations, told
+
+STATES = 6
+
+
+def held(text: str, tree: Callable[[Tree], Tree] = lambda tree: tree) -> dict[str, bool]:
+    """Which part holds, of a model whose numbers are another's in our hands."""
+    asked = compiled_text(text)
+    asked.__dict__["tree"] = tree(asked.tree)
+    return {part.name: part.holds for part in equations(asked, STATES)}
+
+
+@pytest.mark.parametrize(
+    "seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 40))]
+)
+def test_any_models_equations_are_the_textbooks(seed: int) -> None:
+    parts = equations(compiled_text(random_model(seed)), STATES)
+    assert {part.name: part.holds for part in parts} == dict.fromkeys(
+        (MASS, BIAS, PASSIVE, DRIVEN), True
+    )
+    assert all(part.states == STATES for part in parts if part.name != DRIVEN)
+    assert not any(part.unread for part in parts)
+
+
+CHAIN = """\
+<mujoco><worldbody><body name="arm" gravcomp=".3"><inertial pos=".2 0 .1" mass="2"
+  diaginertia=".02 .03 .04"/><joint name="shoulder" axis="0 1 0" stiffness="3" damping=".2"
+  springref=".4" armature=".05" ref=".1"/>
+<body name="hand" pos=".5 0 0"><inertial pos="0 .1 0" mass="1" diaginertia=".01 .02 .02"/>
+  <joint name="rail" type="slide" axis="1 0 0"/><joint name="wrist" axis="0 0 1" pos=".05 0 0"/>
+</body></body></worldbody>
+<actuator><position joint="shoulder" kp="20" forcerange="-5 5"/></actuator></mujoco>"""
+
+
+FREE = (-np.inf, np.inf)
+
+
+def other_hand(change: Callable[[Link], Link]) -> Callable[[Tree], Tree]:
+    return lambda tree: replace(tree, links=[*tree.links[:-1], change(tree.links[-1])])
+
+
+MISTAKES: dict[str, tuple[Callable[[Tree], Tree], set[str]]] = {
+    "a hand's inertia 1e-9 off": (
+        other_hand(lambda hand: replace(hand, J=hand.J * (1 + 1e-9))), {MASS},
+    ),
+    "a hand that is nowhere lifted": (
+        lambda tree: replace(tree, links=[replace(x, lifted=0.0) for x in tree.links]), {PASSIVE},
+    ),
+    "a wrist's axis that is turned": (
+        other_hand(lambda hand: replace(hand, joints=[
+            hand.joints[0], replace(hand.joints[1], axis=np.array([0.0, 1e-6, 1.0]))
+        ])), {MASS, BIAS},
+    ),
+    "no armature": (lambda tree: replace(tree, armature=0 * tree.armature), {MASS}),
+    "gravity as on the sea": (
+        lambda tree: replace(tree, gravity=np.array([0.0, 0.0, -9.80665])), {BIAS, PASSIVE},
+    ),
+    "a servo without a bound": (
+        lambda tree: replace(tree, motors=[replace(x, force=FREE) for x in tree.motors]),
+        {DRIVEN},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.mutant("{mistake}")
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_another_number_is_seen(mistake: str) -> None:
+    change, parts = MISTAKES[mistake]
+    assert all(held(CHAIN).values())
+    assert {name for name, holds in held(CHAIN, change).items() if not holds} == parts
+
+
+LINES = {
+    "no Coriolis acceleration along a rail": ("coriolis = 2 * np.cross", "coriolis = 1 * np.cross"),
+    "no ω × J ω": ("return body.link.mass * (at.a - tree.gravity), body.J @ at.alpha + turning",
+                   "return body.link.mass * (at.a - tree.gravity), body.J @ at.alpha"),
+    "a turn about the origin in place of the anchor": (
+        "return hung.at(-hung.E @ joint.anchor)", "return hung.at(-frame.E @ joint.anchor)",
+    ),
+    "a joint's zero that plays no part": (
+        "R = about(joint.axis, q[joint.q] - joint.zero)", "R = about(joint.axis, q[joint.q])",
+    ),
+    "a spring that rests at zero": ("rest[:shifts] - now, np", "-now, np"),
+}  # fmt: skip
+
+
+@pytest.mark.mutant("{line}")
+@pytest.mark.parametrize("line", LINES)
+def test_a_wrong_line_is_seen(line: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    wrong: ModuleType = otherwise(tree_equations, *LINES[line])
+    monkeypatch.setattr(own_equations, "textbook", wrong)
+    assert not all(held(CHAIN).values())
+
+
+COUPLED = """\
+<mujoco><worldbody>
+<body><joint name="left" axis="0 0 1"/><geom size=".1"/></body>
+<body pos="1 0 0"><joint name="right" axis="0 0 1"/><geom size=".1"/></body></worldbody>
+<tendon><fixed name="belt" armature="{0}"><joint joint="left" coef="1"/>
+<joint joint="right" coef="1"/></fixed></tendon></mujoco>"""
+
+
+def test_an_armature_that_couples_branches_is_none_of_mujocos() -> None:
+    """Its mass matrix has no entry there: 2 rad/s² are 1 and 0, and should be 1.9 and -0.9."""
+    parts = equations(compiled_text(COUPLED.format(0.1)), STATES)
+    assert [part.name for part in parts if not part.holds] == [MASS]
+    assert parts[0].joint == "left and right"
+    assert "tendon belt couples branches by its armature" in "\n".join(told(parts))
+    assert all(held(COUPLED.format(0)).values())
+
+
+def test_what_is_not_read_is_said_and_not_compared() -> None:
+    text = CHAIN.replace("<worldbody>", '<option density="1.2"/><worldbody>')
+    text = text.replace(
+        "</actuator>", '<muscle name="biceps" joint="wrist" lengthrange="0 1"/></actuator>'
+    )
+    parts = {part.name: part for part in equations(compiled_text(text), STATES)}
+    assert parts[PASSIVE].off is parts[DRIVEN].off is None
+    assert parts[MASS].holds
+    assert parts[MASS].states == STATES
+    lines = "\n".join(told(parts.values()))
+    assert "not compared: option: a fluid (density, viscosity)" in lines
+    assert "not compared: actuator biceps: a state of its own" in lines
+
+
+def test_names_that_are_empty_or_strange_are_named() -> None:
+    text = CHAIN.replace('"wrist"', '"wrist&#10;; rm -rf ~"').replace(' name="rail"', "")
+    parts = equations(compiled_text(text), STATES)
+    assert all(part.holds for part in parts)
+    assert compiled_text(text).tree.named(1) == "#1"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ('<mujoco>\n<worldbody><body><joint type="hing"/></body></worldbody></mujoco>', 2, "hing"),
+        ("<mujoco>\n<worldbody>", 2, "ELEMENT"),
+        ('<mujoco>\n<include file="gone.xml"/></mujoco>', 2, "gone.xml"),
+    ],
+)
+def test_what_does_not_compile_is_told_with_its_line(
+    tmp_path: Path, text: str, line: int, words: str
+) -> None:
+    file = tmp_path / "robot.xml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(CaseError) as caught:
+        compiled(str(file))
+    (mistake,) = caught.value.mistakes
+    assert mistake.line == line
+    assert words in mistake.what
+
+
+def public() -> list[Path]:
+    """The models that gymnasium ships; it is not imported."""
+    spec = find_spec("gymnasium")
+    folders = (spec.submodule_search_locations or []) if spec else []
+    return sorted(file for f in folders for file in Path(f).glob("envs/mujoco/assets/*.xml"))
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("file", public(), ids=lambda file: file.stem)
+def test_public_models_equations_are_the_textbooks(file: Path) -> None:
+    parts = equations(compiled(str(file)), 20)
+    assert all(part.holds and (part.off or 0.0) <= 1e-12 for part in parts)
+    unread = {part.name for part in parts if part.unread}
+    assert unread == ({PASSIVE} if file.stem.startswith("swimmer") else set())
