@@ -6,7 +6,7 @@ pytest_plugins = ["pytester"]
 
 LOOKS = """\
 from pathlib import Path
-from given.checkout import Unchanged
+from given.command.checkout import Unchanged
 def pytest_configure(config):
     config.pluginmanager.register(Unchanged(Path(__file__).parent))
 """

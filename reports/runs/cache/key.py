@@ -37,7 +37,7 @@ JUDGING = (
     "engines/*.py", "reports/compare/trial", "reports/compare/judge", "reports/compare/events",
     "reports/tables/row.py", "reports/tables/pins.py", "reports/runs/tasks.py",
 )  # fmt: skip
-SEARCHING = ("reports/search/causes", *JUDGING)  # no file of it that a search does not run
+SEARCHING = ("reports/search/causes", *JUDGING)  # what a search runs, and its door
 TRYING = ("reports/search/causes/candidate.py", "reports/search/causes/errors.py")
 COLLECTING = ("reports/front/collecting.py",)
 ROUNDING = ("NPY_", "OPENBLAS_", "OMP_", "MKL_", "BLIS_", "GLIBC_TUNABLES", "LD_", "DYLD_")
