@@ -170,7 +170,7 @@ BUDGET = {
     "tests/reference": 20110,
     "tests/reports": 16200,
     "tests/second": 4320,
-    "tests": 64070,
+    "tests": 64080,
 }
 """Lines of Python that a room may have.
 
@@ -195,5 +195,6 @@ def test_every_room_keeps_its_budget_of_lines() -> None:
         for files in [(ROOT / room).rglob("*.py")]
     }
     assert outside(lines) == []
-    assert outside(lines | {"cases": 10**5}) == ["cases: 100000 lines, the budget is 9250"]
+    larger = f"cases: 100000 lines, the budget is {BUDGET['cases']}"
+    assert outside(lines | {"cases": 10**5}) == [larger]
     assert outside(lines | {"tests/given": 100})
