@@ -142,7 +142,7 @@ def _no_case(root: str) -> str:
     """Returns why XML with this root is no case, in words."""
     kind = MODELS.get(root, f"XML with the root <{root}>")
     checks = (
-        "`textmech check` compares its equations with the textbook's; all else reads cases as YAML"
+        "`textmech check` compares its equations, `textmech run` its steps; all else reads YAML"
         if root in ("mujoco", "robot")
         else "textmech reads cases as YAML"
     )

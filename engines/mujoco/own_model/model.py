@@ -11,7 +11,7 @@ import numpy as np
 from ....cases.mistake import CaseError, Mistake
 from ....cases.trajectory import Array
 from ....cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
-from .numbers import numbers
+from .numbers import named, numbers
 
 LINE = re.compile(r"[Ll]ine(?: number)?[ =](\d+)")
 RATE = 0.5  # rad/s, m/s: of rates that are drawn, so that no term of an equation rests
@@ -40,11 +40,29 @@ class OwnModel:
         return numbers(self.model)
 
     def start(self) -> mujoco.MjData:
-        """Returns the first keyframe, or where the model stands by itself, with its controls."""
-        data = mujoco.MjData(self.model)
-        if self.model.nkey:
-            mujoco.mj_resetDataKeyframe(self.model, data, 0)
+        """Returns the first keyframe with its controls.
+
+        Without one it is where the model stands, with rates drawn by chance, as rest hides much;
+        position servos hold where they are, and all else is not driven.
+        """
+        data, m = mujoco.MjData(self.model), self.model
+        if m.nkey:
+            mujoco.mj_resetDataKeyframe(m, data, 0)
+            return data
+        mujoco.mj_forward(m, data)
+        for i in np.flatnonzero(m.actuator_biasprm[:, 1] == -m.actuator_gainprm[:, 0]):
+            if m.actuator_gainprm[i, 0]:
+                data.ctrl[m.actuator_ctrladr[i]] = data.actuator_length[i]
+        data.qvel[:] = np.random.default_rng(0).uniform(-RATE, RATE, m.nv)
         return data
+
+    @property
+    def started(self) -> str:
+        """From where it is started, in words."""
+        if self.model.nkey:
+            name = named(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
+            return f"from its keyframe {name}, with the keyframe's controls"
+        return f"from where it stands, with rates up to {RATE} rad/s and m/s drawn by chance"
 
     def moving(self, duration: float) -> Iterator[State]:
         """Yields the states at its own steps from the start on, as far as they are numbers [s]."""

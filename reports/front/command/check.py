@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ....cases.language.check.work import LIMIT
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say
 from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
@@ -130,6 +131,7 @@ class _Model:
 
     name: str
     path: str
+    limit: float = LIMIT  # s: of a thousand joints a second may take an hour
 
 
 def _done(task: _Task | _Model) -> Checked:

@@ -160,7 +160,6 @@ def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: st
         load(file)
     (mistake,) = error.value.mistakes
     assert mistake.what.startswith(f"is {told}; ")
-    assert "reads cases as YAML" in mistake.what
     assert ("`textmech check` compares" in mistake.what) == (
         told in ("an MJCF model", "a URDF model")
     )
@@ -168,10 +167,10 @@ def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: st
 
 
 @pytest.mark.slow
-def test_every_command_tells_a_model_as_one(tmp_path: Path) -> None:
+def test_every_other_command_tells_a_model_as_one(tmp_path: Path) -> None:
     (tmp_path / "model.xml").write_text("<mujoco/>\n", encoding="utf-8")
     for words in (
-        "run", "advise", "causes", "show --engine mujoco", "plot --out x.svg",
+        "advise", "causes", "show --engine mujoco", "plot --out x.svg",
         "page --out x.html",
     ):  # fmt: skip
         done = textmech(*words.split(), "model.xml", folder=tmp_path)
@@ -200,6 +199,25 @@ def test_check_compares_a_models_equations(tmp_path: Path) -> None:
     assert both.returncode == told["exit_code"] == 2
     assert [part["holds"] for part in told["files"][0]["equations"]] == [True] * 4
     assert "does not compile it" in told["files"][1]["mistakes"][0]["what"]
+
+
+@pytest.mark.slow
+def test_run_compares_a_models_steps_with_their_limit(tmp_path: Path) -> None:
+    (tmp_path / "robot.xml").write_text(ROBOT, encoding="utf-8")
+    (tmp_path / "rests.xml").write_text("<mujoco/>", encoding="utf-8")
+    done = textmech("run", "robot.xml", "rests.xml", folder=tmp_path)
+    assert done.returncode == 0
+    assert "its limit for h → 0 by DOP853, known to " in done.stdout
+    (own,) = [line for line in done.stdout.splitlines() if line.startswith("  own ")]
+    assert own.split()[:3] == ["own", "2", "ms"]
+    assert own.split()[4] == "swing"
+    assert "nothing moves" in done.stdout
+    told = json.loads(textmech("run", "robot.xml", "--json", folder=tmp_path).stdout)
+    rows = told["models"][0]["steps"]
+    assert [row["setting"] for row in rows] == ["own", "implicitfast", "RK4"]
+    mixed = textmech("run", "robot.xml", "--engine", "mujoco", folder=tmp_path)
+    assert mixed.returncode == 2
+    assert "a model of your own is run alone" in mixed.stderr
 
 
 @pytest.mark.mutant("a model of an engine is read as YAML")

@@ -1,0 +1,236 @@
+"""A model's own continuous equations: MuJoCo's accelerations, integrated to far below its steps.
+
+It is the engine's *limit* for h → 0, and no reference: it proves nothing about the equations.
+"""
+
+import copy
+from dataclasses import dataclass
+from typing import Literal
+
+import mujoco
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from ....cases.trajectory import Array
+from .model import BROKEN, OwnModel
+
+TIGHT, LOOSE = 1e-10, 1e-8  # relative: what the two answers differ by is the limit's own error
+FLOOR = 1e-3  # of a relative tolerance: the absolute one, of rad and m
+MOST = 60_000  # accelerations of one answer: an explicit method crawls where a servo is stiff
+ITERATIONS = 200  # of Newton's solver at most
+EXACT = 1e-16  # its tolerance: what 1e-8 leaves is noise that stalls integrators; 0 never stops
+FINE = 64  # parts of its own step, where no integrator comes through
+Method = Literal["DOP853", "Radau"]
+METHODS: tuple[Method, ...] = ("DOP853", "Radau")  # explicit, and for stiff servos
+H_IN_THE_LAW = {
+    "discrete": "the integrator `discrete` has the step in its law",
+    "delay": "an actuator's delay or history is counted in steps",
+    "sleep": "bodies that sleep have the step in their law",
+    "state": "a plugin or a spring that yields has a state outside of qpos, qvel and act",
+}
+
+
+class NoLimit(Exception):
+    """Why a model has no limit here, in words."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """The motion for h → 0: q (N, m) at the times (N,) [s].
+
+    error: by how much two answers differ, the largest of all coordinates; method: what integrates.
+    """
+
+    times: Array
+    q: Array
+    error: float
+    method: str
+
+
+def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Limit:
+    """Returns the limit of a model from a start on, by default its own. Raises NoLimit.
+
+    The law is that of the model's own step: what `refsafe` makes of a contact hangs on that. Where
+    many contacts switch it is the engine's own at a small part of its step.
+    """
+    if reasons := with_step(own.model):
+        raise NoLimit("; ".join(reasons))
+    equations = Equations(own.model, start or own.start())
+    for method in METHODS:
+        try:
+            tight, loose = (equations.followed(times, method, rtol) for rtol in (TIGHT, LOOSE))
+        except _TooMany:
+            continue
+        error = max(
+            float(np.abs(equations.apart(a, b)).max(initial=0.0))
+            for a, b in zip(tight, loose, strict=True)
+        )
+        return Limit(times, tight[:, : own.model.nq], error, method)
+    h = own.model.opt.timestep
+    fine, coarse = (stepped(own, times, None, h / n, start) for n in (FINE, FINE // 2))
+    if fine is None or coarse is None:
+        raise NoLimit(f"{MOST} accelerations do not suffice, and small steps diverge")
+    error = max(
+        float(np.abs(apart(own.model, a, b)).max(initial=0.0))
+        for a, b in zip(fine, coarse, strict=True)
+    )
+    return Limit(times, fine, error, f"its own steps of {h / FINE:.2g} s")
+
+
+def with_step(m: mujoco.MjModel) -> list[str]:
+    """Returns what of a model's law hangs on its step, in words."""
+    found = []
+    if mujoco.mjtIntegrator(m.opt.integrator).name == "mjINT_DISCRETE":
+        found.append(H_IN_THE_LAW["discrete"])
+    if np.any(m.actuator_delay) or m.nhistory:
+        found.append(H_IN_THE_LAW["delay"])
+    if m.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
+        found.append(H_IN_THE_LAW["sleep"])
+    if m.nplugin or m.nplastic:
+        found.append(H_IN_THE_LAW["state"])
+    return found
+
+
+class _TooMany(Exception):
+    """More accelerations than one answer may cost."""
+
+
+class Equations:
+    """ẏ = f(y) of y = (qpos, qvel, act), with the controls of a start held."""
+
+    def __init__(self, model: mujoco.MjModel, start: mujoco.MjData) -> None:
+        self.model = copy.copy(model)
+        self.model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
+        self.model.opt.tolerance, self.model.opt.iterations = EXACT, ITERATIONS
+        self.data = mujoco.MjData(self.model)
+        self.data.ctrl[:], self.data.qpos[:] = start.ctrl, start.qpos
+        self.data.mocap_pos[:], self.data.mocap_quat[:] = start.mocap_pos, start.mocap_quat
+        self.y = np.concatenate([start.qpos, start.qvel, start.act])
+        self.asked = 0
+
+    def rate(self, t: float, y: Array) -> Array:
+        """Returns ẏ; q̇ of a quaternion is ½ q ∘ (0, ω)."""
+        self.asked += 1
+        if self.asked > MOST or not np.all(np.isfinite(y)):
+            raise _TooMany
+        m, d = self.model, self.data
+        d.time = t
+        self._set(y)
+        mujoco.mj_forward(m, d)
+        return np.concatenate([self._q_dot(y), d.qacc, d.act_dot])
+
+    def followed(self, times: Array, method: Method, rtol: float) -> Array:
+        """Returns (N, len(y)) at the times, to a relative tolerance. Raises _TooMany."""
+        self.asked = 0
+        span = float(times[0]), float(times[-1])
+        answer = solve_ivp(
+            self.rate, span, self.y, method, times, rtol=rtol, atol=rtol * FLOOR,
+            first_step=1e-6, max_step=float(times[1] - times[0]),
+        )  # fmt: skip
+        if not answer.success:
+            raise _TooMany
+        return answer.y.T
+
+    def apart(self, a: Array, b: Array) -> Array:
+        """Returns by how much the joints of two states differ (n,) [rad, m]."""
+        return apart(self.model, a[: self.model.nq], b[: self.model.nq])
+
+    def _set(self, y: Array) -> None:
+        nq, nv = self.model.nq, self.model.nv
+        self.data.qpos[:], self.data.qvel[:] = y[:nq], y[nq : nq + nv]
+        self.data.act[:] = y[nq + nv :]
+
+    def _q_dot(self, y: Array) -> Array:
+        m, v = self.model, self.data.qvel
+        found = np.empty(m.nq)
+        for j in range(m.njnt):
+            q, at, kind = int(m.jnt_qposadr[j]), int(m.jnt_dofadr[j]), int(m.jnt_type[j])
+            if kind in QUATERNION:
+                shift = QUATERNION[kind]
+                found[q : q + shift] = v[at : at + shift]
+                turn, spin = slice(q + shift, q + shift + 4), slice(at + shift, at + shift + 3)
+                found[turn] = _turning(y[turn], v[spin])
+            else:
+                found[q] = v[at]
+        return found
+
+
+def _turning(q: Array, omega: Array) -> Array:
+    """(4,): ½ q ∘ (0, ω), ω in the body's axes; mju_derivQuat takes it in the ground's."""
+    w, x, y, z = q
+    a, b, c = omega
+    rates = [-x * a - y * b - z * c, w * a + y * c - z * b]
+    return np.array([*rates, w * b + z * a - x * c, w * c + x * b - y * a]) / 2
+
+
+QUATERNION = {0: 3, 1: 0}  # by a joint's type: free, ball: how many shifts stand before it
+
+
+def apart(model: mujoco.MjModel, a: Array, b: Array) -> Array:
+    """Returns by how much each joint (n,) [rad, m] has to move from a to b."""
+    found = np.empty(model.nv)
+    mujoco.mj_differentiatePos(model, found, 1.0, a, b)
+    return found
+
+
+def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:
+    """Returns coordinates q (m,), of which each joint is moved by (n,) [rad, m]."""
+    found = np.array(q)
+    mujoco.mj_integratePos(model, found, by, 1.0)
+    return found
+
+
+def stepped(
+    own: OwnModel,
+    times: Array,
+    integrator: str | None,
+    h: float,
+    start: mujoco.MjData | None = None,
+) -> Array | None:
+    """Returns q (N, m) of MuJoCo's own steps h [s] at the times; None where it diverges.
+
+    integrator: by its name, None: the model's. times: multiples of h.
+    """
+    model = _with_law_of(own.model)
+    if integrator is not None:
+        model.opt.integrator = INTEGRATORS[integrator]
+    model.opt.timestep = h
+    data, found = mujoco.MjData(model), list[Array]()
+    begun = start or own.start()
+    data.qpos[:], data.qvel[:], data.act[:] = begun.qpos, begun.qvel, begun.act
+    data.ctrl[:], data.mocap_pos[:] = begun.ctrl, begun.mocap_pos
+    data.mocap_quat[:] = begun.mocap_quat
+    for steps in np.diff(np.rint(times / h).astype(int), prepend=0):
+        if steps:
+            mujoco.mj_step(model, data, int(steps))
+        if any(int(data.warning[kind].number) for kind in BROKEN):
+            return None
+        found.append(data.qpos.copy())
+    return np.array(found)
+
+
+INTEGRATORS = {
+    "Euler": mujoco.mjtIntegrator.mjINT_EULER,
+    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    "RK4": mujoco.mjtIntegrator.mjINT_RK4,
+}
+
+
+def _with_law_of(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Returns a copy whose constraints are at smaller steps as stiff as at the model's own step.
+
+    `refsafe` takes no time constant below two steps: what it makes of one is written down.
+    """
+    held, least = copy.copy(model), 2 * model.opt.timestep
+    if model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_REFSAFE:
+        return held
+    for name in SOLREF:
+        time_constants = getattr(held, name)[..., 0]
+        time_constants[(time_constants > 0) & (time_constants < least)] = least
+    return held
+
+
+SOLREF = (
+    "geom_solref", "pair_solref", "pair_solreffriction", "eq_solref", "jnt_solref", "dof_solref",
+    "tendon_solref_lim", "tendon_solref_fri",
+)  # fmt: skip

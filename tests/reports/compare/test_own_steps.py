@@ -1,0 +1,160 @@
+"""Users' models at their steps against their limit, and the limit against equations of our own."""
+
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from given.otherwise import otherwise
+from scipy.integrate import solve_ivp
+
+from textmech.engines.mujoco.own_model import limit as limits
+from textmech.engines.mujoco.own_model.limit import NoLimit, apart, limit, with_step
+from textmech.engines.mujoco.own_model.model import OwnModel, compiled_text
+from textmech.reference.formalisms import tree_equations
+from textmech.reports.compare import own_steps
+from textmech.reports.compare.own_steps import OWN, steps
+
+TIMES = np.linspace(0.0, 1.0, 11)
+
+ACROBOT = """\
+<mujoco><option timestep="0.01" integrator="RK4"/><worldbody><body><joint name="shoulder"
+axis="0 1 0" damping=".05"/><geom type="capsule" size=".05 .5" pos="0 0 .5" mass="1"/>
+<body pos="0 0 1"><joint name="elbow" axis="0 1 0" stiffness="2"/>
+<geom type="capsule" size=".05 .5" pos="0 0 .5" mass="1"/></body></body></worldbody>
+<actuator><position joint="elbow" kp="3"/></actuator></mujoco>"""
+
+TUMBLER = """\
+<mujoco><option timestep="0.005" gravity="0 0 0"/><worldbody><body><freejoint name="tumbles"/>
+<inertial pos=".1 0 0" mass="1" diaginertia=".1 .2 .25"/></body></worldbody>
+<keyframe><key qpos="0 0 0 1 0 0 0" qvel="1 0 0 .1 3 .1"/></keyframe></mujoco>"""
+
+BALL = """\
+<mujoco><option timestep="0.002"/><worldbody><geom type="plane" size="1 1 1"/>
+<body pos="0 0 .105"><freejoint name="ball"/><geom size=".1" mass="1"/></body></worldbody>
+</mujoco>"""
+
+STIFF = """\
+<mujoco><option timestep="0.01"><flag eulerdamp="disable"/></option><worldbody><body>
+<joint name="wrist" axis="0 0 1" damping="5"/><geom size=".1" mass="1"/></body></worldbody>
+</mujoco>"""
+
+
+def by_our_equations(own: OwnModel, start: Any) -> np.ndarray:
+    """q (N, m) of a model of hinges, by the equations of the textbook and scipy, without MuJoCo."""
+    tree = own.tree
+
+    def rate(t: float, y: np.ndarray) -> np.ndarray:
+        q, v = np.split(y, 2)
+        bodies = tree_equations.moving(tree, q, v)
+        forces = tree_equations.passive(tree, q, v, bodies).forces
+        forces = forces + tree_equations.driven(tree, q, v, start.ctrl, bodies).forces
+        forces = forces - tree_equations.bias(tree, bodies)
+        return np.concatenate(
+            [v, np.linalg.solve(tree_equations.mass_matrix(tree, bodies), forces)]
+        )
+
+    y = np.concatenate([start.qpos, start.qvel])
+    found = solve_ivp(rate, (0.0, 1.0), y, "DOP853", TIMES, rtol=1e-11, atol=1e-13)
+    return found.y.T[:, : own.model.nq]
+
+
+def test_the_limit_is_the_motion_of_the_textbooks_equations() -> None:
+    own = compiled_text(ACROBOT)
+    exact = limit(own, TIMES)
+    assert exact.error < 1e-7
+    assert np.abs(exact.q - by_our_equations(own, own.start())).max() < 1e-8
+
+
+@pytest.mark.mutant("{what}")
+@pytest.mark.parametrize(
+    ("what", "was", "now"),
+    [
+        ("a limit without the controls", "= start.ctrl, start.qpos", "= 0.0, start.qpos"),
+        ("a limit with another gravity", "EXACT, ITERATIONS",
+         "EXACT, ITERATIONS; self.model.opt.gravity[2] = -9.80665"),
+    ],
+)  # fmt: skip
+def test_another_limit_is_seen(what: str, was: str, now: str) -> None:
+    own, wrong = compiled_text(ACROBOT), otherwise(limits, was, now)
+    start = own.start()
+    start.ctrl[:] = 1.0
+    wanted = by_our_equations(own, start)
+    assert np.abs(limit(own, TIMES, start).q - wanted).max() < 1e-8
+    assert np.abs(wrong.limit(own, TIMES, start).q - wanted).max() > 1e-5
+
+
+def test_orders_are_those_of_the_methods() -> None:
+    found = {row.setting: row for row in steps(compiled_text(ACROBOT)).rows}
+    assert found[OWN].order == pytest.approx(4, abs=0.2)
+    assert found["Euler"].order == pytest.approx(1, abs=0.2)  # of h/4 and h/8
+    assert found[OWN].keeps == 0.01
+    assert (found["Euler"].off or 0.0) > 50 * (found[OWN].off or 0.0) > 0.0
+
+
+@pytest.mark.mutant("a quaternion that turns the other way")
+def test_a_free_body_tumbles_as_its_steps_do() -> None:
+    """The middle axis: by RK4, which is exact to 1e-9 at small steps."""
+    own = compiled_text(TUMBLER)
+    exact, fine = limit(own, TIMES), limits.stepped(own, TIMES, "RK4", 0.00125)
+    assert fine is not None
+    assert np.abs([apart(own.model, a, b) for a, b in zip(exact.q, fine, strict=True)]).max() < 1e-7
+    wrong: ModuleType = otherwise(
+        limits, "_turning(y[turn], v[spin])", "_turning(y[turn], -v[spin])"
+    )
+    other = wrong.limit(own, TIMES)
+    assert np.abs([apart(own.model, a, b) for a, b in zip(other.q, fine, strict=True)]).max() > 1e-2
+
+
+def test_what_diverges_is_a_row() -> None:
+    row = next(row for row in steps(compiled_text(STIFF)).rows if row.setting == OWN)
+    assert row.off is None
+    assert row.keeps is None or row.keeps < 0.01
+
+
+def test_a_contact_has_a_limit_and_finer_steps_reach_it() -> None:
+    found = steps(compiled_text(BALL))
+    own = found.rows[0]
+    assert found.judges
+    assert own.order is not None
+    assert own.off is not None
+    assert 0.0 < own.off < 0.01
+
+
+@pytest.mark.mutant("a contact whose law follows the step")
+def test_the_law_is_that_of_the_models_own_step() -> None:
+    """With a time constant below two steps `refsafe` raises it: what is finer is no other law."""
+    text = BALL.replace('<geom size=".1"', '<geom size=".1" solref=".001 1" priority="1"')
+    own = compiled_text(text)
+    wrong: ModuleType = otherwise(limits, "] = least", "] *= 1.0")
+    exact = limit(own, TIMES)
+    fine = {module: module.stepped(own, TIMES, "RK4", 2e-5) for module in (limits, wrong)}
+    off = {
+        module: np.abs([apart(own.model, a, b) for a, b in zip(exact.q, q, strict=True)]).max()
+        for module, q in fine.items()
+    }
+    assert off[limits] < 1e-5
+    assert off[wrong] > 1e-4
+
+
+def test_what_hangs_on_the_step_has_no_limit() -> None:
+    text = ACROBOT.replace('kp="3"', 'kp="3" delay="0.02" nsample="4"')
+    own = compiled_text(text)
+    assert with_step(own.model)
+    with pytest.raises(NoLimit, match="delay"):
+        steps(own)
+
+
+def test_a_rough_limit_judges_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no integrator comes through, its own small steps stand for the limit."""
+    monkeypatch.setattr(limits, "MOST", 10)
+    found = steps(compiled_text(ACROBOT.replace('integrator="RK4"', "")), tolerance=1e-6)
+    assert found.limit.method.startswith("its own steps of 0.00016 s")
+    assert not found.judges
+    assert all(row.keeps is None for row in found.rows)
+
+
+def test_a_disturbance_that_grows_ends_what_is_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(own_steps, "DISTURBED", 1e-4)
+    assert steps(compiled_text(ACROBOT), tolerance=2e-4).until < 1.0
+    assert steps(compiled_text(ACROBOT), tolerance=1.0).until == 1.0
