@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ....cases.language.check.work import LIMIT
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say
 from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
@@ -131,7 +130,13 @@ class _Model:
 
     name: str
     path: str
-    limit: float = LIMIT  # s: of a thousand joints a second may take an hour
+
+    @property
+    def limit(self) -> float:
+        """How long it may take [s]: of a thousand joints one second may take an hour."""
+        from ....cases.language.check.work import LIMIT
+
+        return LIMIT
 
 
 def _done(task: _Task | _Model) -> Checked:

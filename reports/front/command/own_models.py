@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ....cases.language.check.work import LIMIT
 from ....cases.mistake import CaseError, Mistake, plain
 from ..show.console import say
 from .options import BAD_INPUT
@@ -22,7 +21,13 @@ class _Model:
 
     name: str
     path: str
-    limit: float = LIMIT  # s: of a thousand joints a second may take an hour
+
+    @property
+    def limit(self) -> float:
+        """How long it may take [s]: of a thousand joints one second may take an hour."""
+        from ....cases.language.check.work import LIMIT
+
+        return LIMIT
 
 
 @dataclass(frozen=True)
