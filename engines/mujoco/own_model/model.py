@@ -129,10 +129,17 @@ def compiled_text(text: str, name: str = "MJCF") -> OwnModel:
 
 def _compiled(file: str, compile_: Callable[[], mujoco.MjModel]) -> OwnModel:
     try:
-        return OwnModel(file, compile_())
+        own = OwnModel(file, compile_())
     except (ValueError, OSError, mujoco.FatalError) as error:
         words = " ".join(str(error).split())
         line = LINE.search(words)
         said = f"MuJoCo {mujoco.__version__} does not compile it: {words}"
         place = (int(line[1]), 1) if line else (0, 0)
         raise CaseError([Mistake(file, *place, "", said)]) from None
+    start = own.start()
+    for name in ("qpos", "qvel", "act", "ctrl"):
+        values = getattr(start, name)
+        if not np.all(np.abs(values) < mujoco.mjMAXVAL):
+            what = f"its first keyframe should hold numbers below {mujoco.mjMAXVAL:.0e}"
+            raise CaseError([Mistake(file, 0, 0, f"keyframe.{name}", what)])
+    return own

@@ -168,6 +168,14 @@ def test_what_does_not_compile_is_told_with_its_line(
     assert words in mistake.what
 
 
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("number", ["nan", "1e200"])
+def test_a_keyframe_without_numbers_is_a_mistake(number: str) -> None:
+    key = f'<keyframe><key qpos="0 {number} 0"/></keyframe></mujoco>'
+    with pytest.raises(CaseError, match=r"keyframe\.qpos: its first keyframe should hold numbers"):
+        compiled_text(CHAIN.replace("</mujoco>", key))
+
+
 def public() -> list[Path]:
     """The models that gymnasium ships; it is not imported."""
     spec = find_spec("gymnasium")
