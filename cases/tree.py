@@ -85,13 +85,14 @@ class Line:
 class Motor:
     """An actuator without a state: force = gain u + b₀ + b₁ ℓ + b₂ ℓ̇, clamped, times its moments.
 
-    moments (n,): ∂ℓ/∂q̇. gain (3,): g₀ + g₁ ℓ + g₂ ℓ̇; bias (3,). places as of a `Line`. control and
-    force: within which limits they are held.
+    moments (n,): ∂ℓ/∂q̇. gain (3,): g₀ + g₁ ℓ + g₂ ℓ̇; bias (3,). places as of a `Line`. u: the
+    number of its control. control and force: within which limits they are held.
     """
 
     name: str
     moments: Array
     places: Places
+    u: int
     gain: Array
     bias: Array
     control: tuple[float, float]

@@ -87,7 +87,8 @@ def test_only_adapters_know_their_engine() -> None:
     for file in FILES:
         for engine in ("mujoco", "pymunk"):
             if engine in imported(file):
-                assert file.is_relative_to(ROOT / "engines" / engine)
+                rooms = [engine, *(["own_model"] if engine == "mujoco" else [])]
+                assert any(file.is_relative_to(ROOT / "engines" / room) for room in rooms), file
 
 
 def test_no_engine_is_named_in_the_cases_code() -> None:
@@ -155,22 +156,22 @@ BUDGET = {
     "reference/start": 1840,
     "reference/systems": 8350,
     "reference": 24960,
-    "engines/mujoco": 7430,
+    "engines/mujoco": 6830,
     "engines/pymunk": 5290,
-    "engines": 14220,
-    "reports/compare": 4700,
+    "engines": 14250,
+    "reports/compare": 4720,
     "reports/front": 7440,
     "reports/runs": 1960,
     "reports/search": 2070,
     "reports/tables": 1940,
-    "reports": 18120,
+    "reports": 18140,
     "tests/cases": 3940,
     "tests/engines": 9420,
     "tests/given": 6470,
     "tests/reference": 20110,
-    "tests/reports": 16380,
+    "tests/reports": 16410,
     "tests/second": 4320,
-    "tests": 64250,
+    "tests": 64280,
 }
 """Lines of Python that a room may have.
 

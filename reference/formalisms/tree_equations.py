@@ -76,14 +76,14 @@ def frames(tree: Tree, q: Array, v: Array) -> list[Frame]:
     """(2.8)–(2.12) R_k and E_k of each body's origin and axes, as functions of q, and rates."""
     still = np.zeros((3, tree.n))
     ground = Frame(np.zeros(3), np.eye(3), np.zeros(3), still, still, np.zeros(3), np.zeros(3))
-    found: list[Frame] = []
+    links: list[Frame] = []
     for link in tree.links:
-        parent = ground if link.parent < 0 else found[link.parent]
+        parent = ground if link.parent < 0 else links[link.parent]
         frame = replace(parent.at(parent.E @ link.place), E=parent.E @ rotation(link.attitude))
         for joint in link.joints:
             frame = _moved(frame, joint, q, v)
-        found.append(frame)
-    return found
+        links.append(frame)
+    return links
 
 
 def _moved(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
@@ -109,9 +109,9 @@ def _moved(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
 
 
 def _columns(J: Array, first: int, n: int) -> Array:
-    found = np.zeros((3, n))
-    found[:, first : first + J.shape[1]] = J
-    return found
+    wide = np.zeros((3, n))
+    wide[:, first : first + J.shape[1]] = J
+    return wide
 
 
 @dataclass(frozen=True)
@@ -150,11 +150,11 @@ def bias(tree: Tree, bodies: Sequence[Moving]) -> Array:
 
     The equations of motion are M v̇ + this = all other forces.
     """
-    found = np.zeros(tree.n)
+    forces = np.zeros(tree.n)
     for body in bodies:
         force, moment = _needed(tree, body)
-        found += body.centre.J_r.T @ force + body.centre.J_omega.T @ moment
-    return found
+        forces += body.centre.J_r.T @ force + body.centre.J_omega.T @ moment
+    return forces
 
 
 def _needed(tree: Tree, body: Moving) -> tuple[Array, Array]:
@@ -200,16 +200,16 @@ def _lifted(tree: Tree, bodies: Sequence[Moving], coordinates: Array | bool) -> 
 @equation
 def passive(tree: Tree, q: Array, v: Array, bodies: Sequence[Moving]) -> Term:
     """(2.45), (2.47) −c (q − q₀), −d q̇ of joints and lines, and compensated weight."""
-    found = _exact(-tree.damping * v)
+    forces = _exact(-tree.damping * v)
     for joint, stiffness, rest in tree.springs:
-        found += _spring(joint, stiffness, rest, q, len(v))
+        forces += _spring(joint, stiffness, rest, q, len(v))
     for line in tree.lines:
         (length, rate), (long, fast) = _length(line.coefficients, line.places, q, v)
         pull = line.stiffness * (np.clip(length, *line.spring) - length) - line.damping * rate
         size = line.stiffness * (long + abs(pull)) + line.damping * fast
-        found += Term(line.coefficients * pull, abs(line.coefficients) * size)
+        forces += Term(line.coefficients * pull, abs(line.coefficients) * size)
     by_motors = tree.weight_by_motors
-    return found + _lifted(tree, bodies, True if by_motors is None else np.logical_not(by_motors))
+    return forces + _lifted(tree, bodies, True if by_motors is None else np.logical_not(by_motors))
 
 
 def _exact(forces: Array) -> Term:
@@ -254,16 +254,16 @@ def driven(tree: Tree, q: Array, v: Array, u: Array, bodies: Sequence[Moving]) -
 
     What a joint takes of all of them together is clamped last.
     """
-    found = _exact(np.zeros(tree.n))
-    for motor, control in zip(tree.motors, u, strict=True):
+    forces = _exact(np.zeros(tree.n))
+    for motor in tree.motors:
         lengths, sizes = _length(motor.moments, motor.places, q, v)
         state, large = np.array([1.0, *lengths]), np.array([1.0, *sizes])
-        held = np.clip(control, *motor.control)
-        force = np.clip(np.dot(motor.gain, state) * held + np.dot(motor.bias, state), *motor.force)
-        size = np.dot(np.abs(motor.gain), large) * abs(held) + np.dot(np.abs(motor.bias), large)
-        found += Term(motor.moments * force, np.abs(motor.moments) * size)
+        control = np.clip(u[motor.u], *motor.control)
+        free = np.dot(motor.gain, state) * control + np.dot(motor.bias, state)
+        size = np.dot(np.abs(motor.gain), large) * abs(control) + np.dot(np.abs(motor.bias), large)
+        forces += Term(motor.moments * np.clip(free, *motor.force), np.abs(motor.moments) * size)
     if tree.weight_by_motors is not None:
-        found += _lifted(tree, bodies, tree.weight_by_motors)
+        forces += _lifted(tree, bodies, tree.weight_by_motors)
     if tree.clamped is None:
-        return found
-    return Term(np.clip(found.forces, *tree.clamped.T), found.size)
+        return forces
+    return Term(np.clip(forces.forces, *tree.clamped.T), forces.size)

@@ -3,7 +3,7 @@
 Both see the same numbers, of the compiled model, and share no line of what they make of them.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, islice
 
@@ -12,7 +12,7 @@ import numpy as np
 from ...cases.mistake import plain
 from ...cases.trajectory import Array
 from ...cases.tree import BIAS, DRIVEN, MASS, PARTS, PASSIVE, WIDTH, Line, Tree
-from ...engines.mujoco.own_model.model import OwnModel, State
+from ...engines.own_model.model import OwnModel, State
 from ...reference.formalisms import tree_equations as textbook
 from ...reference.formalisms.tree_equations import Term
 
@@ -56,8 +56,8 @@ def equations(model: OwnModel, count: int = STATES) -> list[Part]:
             if not part.unread and (part.name != DRIVEN or tree.motors):
                 _compare(part, tree, ours[part.name], theirs[part.name])
     for part in parts:
-        if part.name == MASS and not part.holds and (lines := _branching(tree)):
-            part.because = f"{' and '.join(lines)} couples branches by its armature: {NO_ENTRY}"
+        if part.name == MASS and not part.holds and (coupling := _branching(tree)):
+            part.because = f"{' and '.join(coupling)} couples branches by its armature: {NO_ENTRY}"
     return parts
 
 
@@ -99,11 +99,11 @@ def _textbook(tree: Tree, state: State) -> dict[str, tuple[Array, Array]]:
     M = textbook.mass_matrix(tree, bodies)
     diagonal = np.sqrt(np.diag(M))
     bias = textbook.bias(tree, bodies), textbook.size_of_bias(tree, bodies, M)
-    found = {MASS: (M, np.outer(diagonal, diagonal)), BIAS: bias}
+    values = {MASS: (M, np.outer(diagonal, diagonal)), BIAS: bias}
     terms = {PASSIVE: textbook.passive(tree, q, v, bodies)}
     if DRIVEN not in tree.unread:
         terms[DRIVEN] = textbook.driven(tree, q, v, state.u, bodies)
-    return found | {name: (term.forces, _sizes(tree, term)) for name, term in terms.items()}
+    return values | {name: (term.forces, _sizes(tree, term)) for name, term in terms.items()}
 
 
 def _sizes(tree: Tree, term: Term) -> Array:
@@ -115,15 +115,16 @@ def _sizes(tree: Tree, term: Term) -> Array:
     return sizes
 
 
-def told(parts: Iterable[Part]) -> list[str]:
+def lines(parts: Iterable[Part]) -> list[str]:
     """Returns a line for each part, and for what is not compared."""
-    lines = []
-    for part in parts:
-        if part.off is not None:
-            where = "" if part.holds else f" in {part.joint}"
-            fails = "" if part.holds else "FAILS: "
-            off = f"{fails}{part.off:.0e} from the textbook's{where}, at {part.states} states"
-            lines += [off, part.because] if part.because else [off]
-        lines += [f"not compared: {what}" for what in part.unread]
-        lines = [line if line[:1] == " " else f"  {part.name:15}  {plain(line)}" for line in lines]
-    return lines
+    return [f"  {part.name:15}  {plain(line)}" for part in parts for line in _sentences(part)]
+
+
+def _sentences(part: Part) -> Iterator[str]:
+    if part.off is not None:
+        off = f"{part.off:.0e} from the textbook's"
+        whole = f"{off}, at {part.states} states"
+        yield whole if part.holds else f"FAILS: {off} in {part.joint}, at {part.states} states"
+    if part.because:
+        yield part.because
+    yield from (f"not compared: {what}" for what in part.unread)

@@ -75,6 +75,8 @@ def command() -> None:
       textmech causes bar_pendulum            why it is off, by experiment
       textmech advise bar_pendulum            which setting it needs, and what to paste
       textmech check my_case.yaml             all mistakes of a file, without running it
+      textmech check robot.xml                an MJCF: its equations against the textbook's
+      textmech run robot.xml                  its steps against its own equations
       textmech show bar_pendulum --engine mujoco.tuned > pendulum.xml
       textmech diff before after              what changed between two report folders
       textmech versions pymunk==7.0.1 pymunk==7.3.1     and between releases of an engine

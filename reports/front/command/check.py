@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ import click
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say
 from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
+from .own_models import Model
 
 if TYPE_CHECKING:
     from ....cases.case import Case
@@ -89,10 +90,10 @@ def _checked(
     from ..show.progress import progress
 
     found: dict[int, Checked] = {}
-    tasks: dict[int, _Task | _Model] = {}
+    tasks: dict[int, _Task | Model] = {}
     for place, file in enumerate(files):
         if is_model(Path(file)):
-            tasks[place] = _Model(file, str(Path(file).resolve()))
+            tasks[place] = Model(file, str(Path(file).resolve()))
             continue
         try:
             cases = choose_cases([file], long=long)
@@ -124,35 +125,18 @@ class _Task:
     cases: "Sequence[Case]"
 
 
-@dataclass(frozen=True)
-class _Model:
-    """A user's own model, by the name that was typed, and where it is."""
-
-    name: str
-    path: str
-
-    @property
-    def limit(self) -> float:
-        """How long it may take [s]: of a thousand joints one second may take an hour."""
-        from ....cases.language.check.work import LIMIT
-
-        return LIMIT
+def _done(task: _Task | Model) -> Checked:
+    return _compared(task) if isinstance(task, Model) else _solved(task)
 
 
-def _done(task: _Task | _Model) -> Checked:
-    return _compared(task) if isinstance(task, _Model) else _solved(task)
-
-
-def _compared(task: _Model) -> Checked:
+def _compared(task: Model) -> Checked:
     """Compiles a model and compares its equations; what does not compile is a mistake."""
-    from ....engines.mujoco.own_model.model import compiled
     from ...compare.own_equations import equations
 
     try:
-        model = compiled(task.path)
+        model = task.compiled()
     except CaseError as error:
-        mistakes = [replace(mistake, file=task.name) for mistake in error.mistakes]
-        return Checked(task.name, [], mistakes, [])
+        return Checked(task.name, [], error.mistakes, [])
     return Checked(task.name, [], [], [], model=str(model), parts=equations(model))
 
 
@@ -184,10 +168,10 @@ def _solved(task: _Task) -> Checked:
 
 def _lines(one: Checked) -> Iterator[str]:
     if one.model:
-        from ...compare.own_equations import told
+        from ...compare.own_equations import lines
 
         yield f"{one.file}: {one.model}"
-        yield from told(one.parts)
+        yield from lines(one.parts)
         return
     for what in dict.fromkeys(one.otherwise):
         yield f"{one.file}: FAILS: {what}"

@@ -12,11 +12,12 @@ from ..show.console import say
 from .options import BAD_INPUT
 
 if TYPE_CHECKING:
+    from ....engines.own_model.model import OwnModel
     from ...compare.own_steps import Step, Steps
 
 
 @dataclass(frozen=True)
-class _Model:
+class Model:
     """A model, by the name that was typed, and where it is."""
 
     name: str
@@ -28,6 +29,15 @@ class _Model:
         from ....cases.language.check.work import LIMIT
 
         return LIMIT
+
+    def compiled(self) -> "OwnModel":
+        """Returns the compiled model. Raises CaseError, of the name that was typed."""
+        from ....engines.own_model.model import compiled
+
+        try:
+            return compiled(self.path)
+        except CaseError as error:
+            raise CaseError([replace(each, file=self.name) for each in error.mistakes]) from None
 
 
 @dataclass(frozen=True)
@@ -48,16 +58,19 @@ def run_models(files: Sequence[str], jobs: int | None, *, wants_json: bool) -> N
     from ..show import document
     from ..show.progress import progress
 
-    tasks = [_Model(file, str(Path(file).resolve())) for file in files]
-    found: dict[int, Stepped] = {}
+    tasks = [Model(file, str(Path(file).resolve())) for file in files]
+    by_place: dict[int, Stepped] = {}
     jobs = min(jobs or workers(), len(tasks))
     with progress(quiet=len(tasks) == 1) as told, local(jobs) as working:
         told.watch(working)
         for index, one in spread(_stepped, tasks, working):
             name = tasks[index].name
-            found[index] = Stepped(name, because=one.because) if isinstance(one, Died) else one
-            told("models", len(found), len(tasks), name, len(found) / len(tasks))
-    answers = [found[index] for index in range(len(tasks))]
+            if isinstance(one, Died):
+                why = Mistake(name, 0, 0, "", f"could not be run: {one.because}")
+                one = Stepped(name, mistakes=[why])
+            by_place[index] = one
+            told("models", len(by_place), len(tasks), name, len(by_place) / len(tasks))
+    answers = [by_place[index] for index in range(len(tasks))]
     mistakes = [mistake for one in answers for mistake in one.mistakes]
     code = BAD_INPUT if mistakes else 0
     if wants_json:
@@ -71,16 +84,14 @@ def run_models(files: Sequence[str], jobs: int | None, *, wants_json: bool) -> N
     raise click.exceptions.Exit(code)
 
 
-def _stepped(task: _Model) -> Stepped:
-    from ....engines.mujoco.own_model.limit import NoLimit
-    from ....engines.mujoco.own_model.model import compiled
+def _stepped(task: Model) -> Stepped:
+    from ....engines.own_model.limit import NoLimit
     from ...compare.own_steps import steps
 
     try:
-        own = compiled(task.path)
+        own = task.compiled()
     except CaseError as error:
-        mistakes = [replace(mistake, file=task.name) for mistake in error.mistakes]
-        return Stepped(task.name, mistakes=mistakes)
+        return Stepped(task.name, mistakes=error.mistakes)
     if not own.model.nv:
         return Stepped(task.name, str(own), because="nothing moves")
     try:
@@ -106,6 +117,8 @@ def _lines(one: Stepped) -> Iterator[str]:
         )
     if not steps.judges:
         yield f"  which is too rough to say which step keeps {steps.tolerance:g}"
+    if steps.note:
+        yield f"  no finer steps: {steps.note}"
     yield ""
     head = f"  {'integrator':13} {'step':>8}  {'off by':>8}  {'in':20} {'order':>5}  "
     yield head + f"keeps {steps.tolerance:g} from"
@@ -140,6 +153,7 @@ def _document(one: Stepped) -> dict[str, object]:
             "limit": {"method": one.steps.limit.method, "error": one.steps.limit.error},
             "tolerance": one.steps.tolerance,
             "judged_until": one.steps.until,
+            "note": one.steps.note,
             "steps": [asdict(row) for row in one.steps.rows],
         }
     return told

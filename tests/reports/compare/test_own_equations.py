@@ -13,10 +13,11 @@ from given.otherwise import otherwise
 
 from textmech.cases.mistake import CaseError
 from textmech.cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Link, Tree
-from textmech.engines.mujoco.own_model.model import compiled, compiled_text
+from textmech.engines.own_model import model, numbers
+from textmech.engines.own_model.model import compiled, compiled_text
 from textmech.reference.formalisms import tree_equations
 from textmech.reports.compare import own_equations
-from textmech.reports.compare.own_equations import equations, told
+from textmech.reports.compare.own_equations import equations, lines
 
 STATES = 6
 
@@ -123,7 +124,7 @@ def test_an_armature_that_couples_branches_is_none_of_mujocos() -> None:
     parts = equations(compiled_text(COUPLED.format(0.1)), STATES)
     assert [part.name for part in parts if not part.holds] == [MASS]
     assert parts[0].joint == "left and right"
-    assert "tendon belt couples branches by its armature" in "\n".join(told(parts))
+    assert "tendon belt couples branches by its armature" in "\n".join(lines(parts))
     assert all(held(COUPLED.format(0)).values())
 
 
@@ -136,9 +137,33 @@ def test_what_is_not_read_is_said_and_not_compared() -> None:
     assert parts[PASSIVE].off is parts[DRIVEN].off is None
     assert parts[MASS].holds
     assert parts[MASS].states == STATES
-    lines = "\n".join(told(parts.values()))
-    assert "not compared: option: a fluid (density, viscosity)" in lines
-    assert "not compared: actuator biceps: a state of its own" in lines
+    text = "\n".join(lines(parts.values()))
+    assert "not compared: option: a fluid (density, viscosity)" in text
+    assert "not compared: actuator biceps: a state of its own" in text
+
+
+def test_actuators_that_are_off_are_none() -> None:
+    """Their controls are there all the same."""
+    text = CHAIN.replace("<worldbody>", '<option><flag actuation="disable"/></option><worldbody>')
+    parts = {part.name: part for part in equations(compiled_text(text), STATES)}
+    assert parts[DRIVEN].off is None
+    assert all(part.holds for part in parts.values())
+
+
+CARRIED = """\
+<mujoco><worldbody><body name="hand" mocap="true" pos="1 0 0">
+<body pos="0 0 .3"><joint axis="0 1 0"/>
+<inertial pos=".2 0 0" mass="1" diaginertia=".1 .1 .1"/></body></body></worldbody>
+<keyframe><key mpos="0 2 0" mquat=".6 .8 0 0"/></keyframe></mujoco>"""
+
+
+@pytest.mark.mutant("a body that the user moves stands where the file put it")
+def test_what_hangs_on_a_moved_body_is_where_the_keyframe_put_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert all(held(CARRIED).values())
+    monkeypatch.setattr(model, "numbers", otherwise(numbers, "if mocap >= 0:", "if False:").numbers)
+    assert not held(CARRIED)[BIAS]
 
 
 def test_names_that_are_empty_or_strange_are_named() -> None:

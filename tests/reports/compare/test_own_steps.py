@@ -8,9 +8,9 @@ import pytest
 from given.otherwise import otherwise
 from scipy.integrate import solve_ivp
 
-from textmech.engines.mujoco.own_model import limit as limits
-from textmech.engines.mujoco.own_model.limit import NoLimit, apart, limit, with_step
-from textmech.engines.mujoco.own_model.model import OwnModel, compiled_text
+from textmech.engines.own_model import limit as limits
+from textmech.engines.own_model.limit import NoLimit, apart, limit, with_step
+from textmech.engines.own_model.model import OwnModel, compiled_text
 from textmech.reference.formalisms import tree_equations
 from textmech.reports.compare import own_steps
 from textmech.reports.compare.own_steps import OWN, steps
@@ -70,7 +70,7 @@ def test_the_limit_is_the_motion_of_the_textbooks_equations() -> None:
 @pytest.mark.parametrize(
     ("what", "was", "now"),
     [
-        ("a limit without the controls", "= start.ctrl, start.qpos", "= 0.0, start.qpos"),
+        ("a limit without the controls", '"act", "ctrl",', '"act",'),
         ("a limit with another gravity", "EXACT, ITERATIONS",
          "EXACT, ITERATIONS; self.model.opt.gravity[2] = -9.80665"),
     ],
@@ -88,7 +88,7 @@ def test_orders_are_those_of_the_methods() -> None:
     found = {row.setting: row for row in steps(compiled_text(ACROBOT)).rows}
     assert found[OWN].order == pytest.approx(4, abs=0.2)
     assert found["Euler"].order == pytest.approx(1, abs=0.2)  # of h/4 and h/8
-    assert found[OWN].keeps == 0.01
+    assert found[OWN].keeps == 0.04
     assert (found["Euler"].off or 0.0) > 50 * (found[OWN].off or 0.0) > 0.0
 
 
@@ -98,12 +98,12 @@ def test_a_free_body_tumbles_as_its_steps_do() -> None:
     own = compiled_text(TUMBLER)
     exact, fine = limit(own, TIMES), limits.stepped(own, TIMES, "RK4", 0.00125)
     assert fine is not None
-    assert np.abs([apart(own.model, a, b) for a, b in zip(exact.q, fine, strict=True)]).max() < 1e-7
+    assert np.abs(apart(own.model, exact.q, fine)).max() < 1e-7
     wrong: ModuleType = otherwise(
         limits, "_turning(y[turn], v[spin])", "_turning(y[turn], -v[spin])"
     )
     other = wrong.limit(own, TIMES)
-    assert np.abs([apart(own.model, a, b) for a, b in zip(other.q, fine, strict=True)]).max() > 1e-2
+    assert np.abs(apart(own.model, other.q, fine)).max() > 1e-2
 
 
 def test_what_diverges_is_a_row() -> None:
@@ -116,7 +116,7 @@ def test_a_contact_has_a_limit_and_finer_steps_reach_it() -> None:
     found = steps(compiled_text(BALL))
     own = found.rows[0]
     assert found.judges
-    assert own.order is not None
+    assert own.keeps is not None
     assert own.off is not None
     assert 0.0 < own.off < 0.01
 
@@ -124,24 +124,37 @@ def test_a_contact_has_a_limit_and_finer_steps_reach_it() -> None:
 @pytest.mark.mutant("a contact whose law follows the step")
 def test_the_law_is_that_of_the_models_own_step() -> None:
     """With a time constant below two steps `refsafe` raises it: what is finer is no other law."""
-    text = BALL.replace('<geom size=".1"', '<geom size=".1" solref=".001 1" priority="1"')
+    text = BALL.replace("<geom ", '<geom solref=".001 1" ')
     own = compiled_text(text)
     wrong: ModuleType = otherwise(limits, "] = least", "] *= 1.0")
     exact = limit(own, TIMES)
     fine = {module: module.stepped(own, TIMES, "RK4", 2e-5) for module in (limits, wrong)}
-    off = {
-        module: np.abs([apart(own.model, a, b) for a, b in zip(exact.q, q, strict=True)]).max()
-        for module, q in fine.items()
-    }
+    off = {module: np.abs(apart(own.model, exact.q, q)).max() for module, q in fine.items()}
     assert off[limits] < 1e-5
     assert off[wrong] > 1e-4
 
 
-def test_what_hangs_on_the_step_has_no_limit() -> None:
-    text = ACROBOT.replace('kp="3"', 'kp="3" delay="0.02" nsample="4"')
+@pytest.mark.mutant("finer steps of a law that no finer step has")
+def test_contacts_of_two_kinds_have_no_finer_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`refsafe` acts on what MuJoCo mixes of two geoms, and not on each."""
+    text = BALL.replace('<geom size=".1"', '<geom size=".1" solref=".001 1"')
+    own = compiled_text(text)
+    assert "pair by pair" in steps(own).note
+    assert own_steps._rungs(own) == (4.0, 2.0, 1.0)
+    monkeypatch.setattr(own_steps, "apart_by_pairs", lambda model: False)
+    assert min(own_steps._rungs(own)) < 1.0
+
+
+EARLY = '<general joint="elbow" dyntype="filter" dynprm=".1" actearly="true"/>'
+LATE = '<position joint="elbow" kp="3" delay="0.02" nsample="4"/>'
+
+
+@pytest.mark.parametrize(("words", "why"), [(LATE, "delay"), (EARLY, "actearly")])
+def test_what_hangs_on_the_step_has_no_limit(words: str, why: str) -> None:
+    text = ACROBOT.replace('<position joint="elbow" kp="3"/>', words)
     own = compiled_text(text)
     assert with_step(own.model)
-    with pytest.raises(NoLimit, match="delay"):
+    with pytest.raises(NoLimit, match=why):
         steps(own)
 
 

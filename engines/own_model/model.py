@@ -8,9 +8,9 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
-from ....cases.mistake import CaseError, Mistake
-from ....cases.trajectory import Array
-from ....cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
+from ...cases.mistake import CaseError, Mistake
+from ...cases.trajectory import Array
+from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
 from .numbers import named, numbers
 
 LINE = re.compile(r"[Ll]ine(?: number)?[ =](\d+)")
@@ -37,7 +37,7 @@ class OwnModel:
     @cached_property
     def tree(self) -> Tree:
         """The model's numbers."""
-        return numbers(self.model)
+        return numbers(self.model, self.start())
 
     def start(self) -> mujoco.MjData:
         """Returns the first keyframe with its controls.
@@ -52,7 +52,7 @@ class OwnModel:
         mujoco.mj_forward(m, data)
         for i in np.flatnonzero(m.actuator_biasprm[:, 1] == -m.actuator_gainprm[:, 0]):
             if m.actuator_gainprm[i, 0]:
-                data.ctrl[m.actuator_ctrladr[i]] = data.actuator_length[i]
+                data.ctrl[m.actuator_ctrladr[i]] = data.actuator_length[m.actuator_outadr[i]]
         data.qvel[:] = np.random.default_rng(0).uniform(-RATE, RATE, m.nv)
         return data
 
@@ -79,8 +79,7 @@ class OwnModel:
         low, high = m.actuator_ctrlrange.T if m.nu else (np.zeros(0), np.zeros(0))
         bounded = np.array(m.actuator_ctrllimited, dtype=bool)
         for _ in range(count):
-            q = start.qpos.copy()
-            mujoco.mj_integratePos(m, q, random.uniform(-REACH, REACH, m.nv), 1.0)
+            q = moved(m, start.qpos, random.uniform(-REACH, REACH, m.nv))
             u = random.uniform(np.where(bounded, low, -1.0), np.where(bounded, high, 1.0))
             yield State(q, random.uniform(-RATE, RATE, m.nv), u)
 
@@ -106,6 +105,13 @@ class OwnModel:
         return (
             f"MuJoCo {mujoco.__version__} compiles it: {words or 'nothing moves'}; own step {step}"
         )
+
+
+def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:
+    """Returns coordinates q (m,), of which each joint is moved by (n,) [rad, m]."""
+    other = np.array(q)
+    mujoco.mj_integratePos(model, other, by, 1.0)
+    return other
 
 
 PLURALS = {"body": "bodies", "degree of freedom": "degrees of freedom", "equality": "equalities"}

@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ....cases.trajectory import Array
+from ...cases.trajectory import Array
 from .model import BROKEN, OwnModel
 
 TIGHT, LOOSE = 1e-10, 1e-8  # relative: what the two answers differ by is the limit's own error
@@ -25,6 +25,7 @@ METHODS: tuple[Method, ...] = ("DOP853", "Radau")  # explicit, and for stiff ser
 H_IN_THE_LAW = {
     "discrete": "the integrator `discrete` has the step in its law",
     "delay": "an actuator's delay or history is counted in steps",
+    "early": "`actearly` takes the activation of the next step",
     "sleep": "bodies that sleep have the step in their law",
     "state": "a plugin or a spring that yields has a state outside of qpos, qvel and act",
 }
@@ -55,40 +56,37 @@ def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Li
     """
     if reasons := with_step(own.model):
         raise NoLimit("; ".join(reasons))
-    equations = Equations(own.model, start or own.start())
+    begun = start or own.start()
+    equations = Equations(own.model, begun)
     for method in METHODS:
         try:
             tight, loose = (equations.followed(times, method, rtol) for rtol in (TIGHT, LOOSE))
         except _TooMany:
             continue
-        error = max(
-            float(np.abs(equations.apart(a, b)).max(initial=0.0))
-            for a, b in zip(tight, loose, strict=True)
-        )
-        return Limit(times, tight[:, : own.model.nq], error, method)
+        return Limit(times, tight, _error(own.model, tight, loose), method)
     h = own.model.opt.timestep
-    fine, coarse = (stepped(own, times, None, h / n, start) for n in (FINE, FINE // 2))
+    if apart_by_pairs(own.model):
+        raise NoLimit(f"{MOST} accelerations do not suffice, and {PAIRS}")
+    fine, coarse = (stepped(own, times, None, h / n, begun) for n in (FINE, FINE // 2))
     if fine is None or coarse is None:
         raise NoLimit(f"{MOST} accelerations do not suffice, and small steps diverge")
-    error = max(
-        float(np.abs(apart(own.model, a, b)).max(initial=0.0))
-        for a, b in zip(fine, coarse, strict=True)
-    )
-    return Limit(times, fine, error, f"its own steps of {h / FINE:.2g} s")
+    return Limit(times, fine, _error(own.model, fine, coarse), f"its own steps of {h / FINE:.2g} s")
+
+
+def _error(model: mujoco.MjModel, one: Array, other: Array) -> float:
+    return float(np.abs(apart(model, one, other)).max(initial=0.0))
 
 
 def with_step(m: mujoco.MjModel) -> list[str]:
     """Returns what of a model's law hangs on its step, in words."""
-    found = []
-    if mujoco.mjtIntegrator(m.opt.integrator).name == "mjINT_DISCRETE":
-        found.append(H_IN_THE_LAW["discrete"])
-    if np.any(m.actuator_delay) or m.nhistory:
-        found.append(H_IN_THE_LAW["delay"])
-    if m.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
-        found.append(H_IN_THE_LAW["sleep"])
-    if m.nplugin or m.nplastic:
-        found.append(H_IN_THE_LAW["state"])
-    return found
+    has = {
+        "discrete": mujoco.mjtIntegrator(m.opt.integrator).name == "mjINT_DISCRETE",
+        "delay": np.any(m.actuator_delay) or m.nhistory,
+        "early": np.any(m.actuator_actearly),
+        "sleep": m.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP,
+        "state": m.nplugin or m.nplastic,
+    }
+    return [words for name, words in H_IN_THE_LAW.items() if has[name]]
 
 
 class _TooMany(Exception):
@@ -102,9 +100,7 @@ class Equations:
         self.model = copy.copy(model)
         self.model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
         self.model.opt.tolerance, self.model.opt.iterations = EXACT, ITERATIONS
-        self.data = mujoco.MjData(self.model)
-        self.data.ctrl[:], self.data.qpos[:] = start.ctrl, start.qpos
-        self.data.mocap_pos[:], self.data.mocap_quat[:] = start.mocap_pos, start.mocap_quat
+        self.data = begun_as(self.model, start)
         self.y = np.concatenate([start.qpos, start.qvel, start.act])
         self.asked = 0
 
@@ -120,7 +116,7 @@ class Equations:
         return np.concatenate([self._q_dot(y), d.qacc, d.act_dot])
 
     def followed(self, times: Array, method: Method, rtol: float) -> Array:
-        """Returns (N, len(y)) at the times, to a relative tolerance. Raises _TooMany."""
+        """Returns q (N, m) at the times, to a relative tolerance. Raises _TooMany."""
         self.asked = 0
         span = float(times[0]), float(times[-1])
         answer = solve_ivp(
@@ -129,11 +125,7 @@ class Equations:
         )  # fmt: skip
         if not answer.success:
             raise _TooMany
-        return answer.y.T
-
-    def apart(self, a: Array, b: Array) -> Array:
-        """Returns by how much the joints of two states differ (n,) [rad, m]."""
-        return apart(self.model, a[: self.model.nq], b[: self.model.nq])
+        return answer.y.T[:, : self.model.nq]
 
     def _set(self, y: Array) -> None:
         nq, nv = self.model.nq, self.model.nv
@@ -142,17 +134,17 @@ class Equations:
 
     def _q_dot(self, y: Array) -> Array:
         m, v = self.model, self.data.qvel
-        found = np.empty(m.nq)
+        q_dot = np.empty(m.nq)
         for j in range(m.njnt):
             q, at, kind = int(m.jnt_qposadr[j]), int(m.jnt_dofadr[j]), int(m.jnt_type[j])
             if kind in QUATERNION:
                 shift = QUATERNION[kind]
-                found[q : q + shift] = v[at : at + shift]
+                q_dot[q : q + shift] = v[at : at + shift]
                 turn, spin = slice(q + shift, q + shift + 4), slice(at + shift, at + shift + 3)
-                found[turn] = _turning(y[turn], v[spin])
+                q_dot[turn] = _turning(y[turn], v[spin])
             else:
-                found[q] = v[at]
-        return found
+                q_dot[q] = v[at]
+        return q_dot
 
 
 def _turning(q: Array, omega: Array) -> Array:
@@ -166,18 +158,12 @@ def _turning(q: Array, omega: Array) -> Array:
 QUATERNION = {0: 3, 1: 0}  # by a joint's type: free, ball: how many shifts stand before it
 
 
-def apart(model: mujoco.MjModel, a: Array, b: Array) -> Array:
-    """Returns by how much each joint (n,) [rad, m] has to move from a to b."""
-    found = np.empty(model.nv)
-    mujoco.mj_differentiatePos(model, found, 1.0, a, b)
-    return found
-
-
-def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:
-    """Returns coordinates q (m,), of which each joint is moved by (n,) [rad, m]."""
-    found = np.array(q)
-    mujoco.mj_integratePos(model, found, by, 1.0)
-    return found
+def apart(model: mujoco.MjModel, one: Array, other: Array) -> Array:
+    """(N, n) [rad, m]: by how much each joint has to move from q (N, m) to the other."""
+    joints = np.empty((len(one), model.nv))
+    for row, a, b in zip(joints, one, other, strict=True):
+        mujoco.mj_differentiatePos(model, row, 1.0, a, b)
+    return joints
 
 
 def stepped(
@@ -191,22 +177,26 @@ def stepped(
 
     integrator: by its name, None: the model's. times: multiples of h.
     """
-    model = _with_law_of(own.model)
+    model = copy.copy(own.model) if h >= own.model.opt.timestep else _with_law_of(own.model)
     if integrator is not None:
         model.opt.integrator = INTEGRATORS[integrator]
     model.opt.timestep = h
-    data, found = mujoco.MjData(model), list[Array]()
-    begun = start or own.start()
-    data.qpos[:], data.qvel[:], data.act[:] = begun.qpos, begun.qvel, begun.act
-    data.ctrl[:], data.mocap_pos[:] = begun.ctrl, begun.mocap_pos
-    data.mocap_quat[:] = begun.mocap_quat
+    data, states = begun_as(model, start or own.start()), list[Array]()
     for steps in np.diff(np.rint(times / h).astype(int), prepend=0):
         if steps:
             mujoco.mj_step(model, data, int(steps))
         if any(int(data.warning[kind].number) for kind in BROKEN):
             return None
-        found.append(data.qpos.copy())
-    return np.array(found)
+        states.append(data.qpos.copy())
+    return np.array(states)
+
+
+def begun_as(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:
+    """Returns data of the model that begin where others stand, with their controls."""
+    data = mujoco.MjData(model)
+    for name in ("qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"):
+        getattr(data, name)[:] = getattr(start, name)
+    return data
 
 
 INTEGRATORS = {
@@ -216,18 +206,37 @@ INTEGRATORS = {
 }
 
 
+PAIRS = (
+    "its contacts mix time constants below and above two steps, which `refsafe` raises pair by "
+    "pair: at a finer step its law is another"
+)
+
+
+def apart_by_pairs(model: mujoco.MjModel) -> bool:
+    """Whether what `refsafe` makes of contacts at the model's own step can be written into none."""
+    collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    times = model.geom_solref[collides, 0]
+    short = (times > 0) & (times < 2 * model.opt.timestep)
+    return bool(_refsafe(model) and short.any() and not short.all())
+
+
+def _refsafe(model: mujoco.MjModel) -> bool:
+    return not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_REFSAFE
+
+
 def _with_law_of(model: mujoco.MjModel) -> mujoco.MjModel:
     """Returns a copy whose constraints are at smaller steps as stiff as at the model's own step.
 
     `refsafe` takes no time constant below two steps: what it makes of one is written down.
     """
-    held, least = copy.copy(model), 2 * model.opt.timestep
-    if model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_REFSAFE:
-        return held
-    for name in SOLREF:
-        time_constants = getattr(held, name)[..., 0]
+    same, least = copy.copy(model), 2 * model.opt.timestep
+    for time_constants in _time_constants(same) if _refsafe(model) else ():
         time_constants[(time_constants > 0) & (time_constants < least)] = least
-    return held
+    return same
+
+
+def _time_constants(model: mujoco.MjModel) -> list[Array]:
+    return [getattr(model, name)[..., 0] for name in SOLREF] + [model.opt.o_solref[:1]]
 
 
 SOLREF = (

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator
 import mujoco
 import numpy as np
 
-from ....cases.trajectory import Array
-from ....cases.tree import (
+from ...cases.trajectory import Array
+from ...cases.tree import (
     BIAS,
     DRIVEN,
     MASS,
@@ -22,19 +22,22 @@ from ....cases.tree import (
 )
 
 KINDS: dict[int, Kind] = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
-DISABLED, ENABLED = mujoco.mjtDisableBit, mujoco.mjtEnableBit
+DISABLED = mujoco.mjtDisableBit
 OBJECT = mujoco.mjtObj
 GAINS = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE)
 BIASES = (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE)
 JOINTS = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 
 
-def numbers(model: mujoco.MjModel) -> Tree:
-    """Returns the model's numbers; `unread` of them tells what no equation of a tree says."""
+def numbers(model: mujoco.MjModel, start: mujoco.MjData) -> Tree:
+    """Returns the model's numbers; `unread` of them tells what no equation of a tree says.
+
+    start: tells where bodies stand that a user moves (`mocap`).
+    """
     m, flags = model, model.opt.disableflags
     springs, damps = not flags & DISABLED.mjDSBL_SPRING, not flags & DISABLED.mjDSBL_DAMPER
     weight = np.zeros(3) if flags & DISABLED.mjDSBL_GRAVITY else np.array(m.opt.gravity)
-    links = [_link(m, body) for body in range(1, m.nbody)]
+    links = [_link(m, start, body) for body in range(1, m.nbody)]
     joints = {joint.v: joint for link in links for joint in link.joints}
     acts = not flags & DISABLED.mjDSBL_ACTUATION
     return Tree(
@@ -45,7 +48,7 @@ def numbers(model: mujoco.MjModel) -> Tree:
         np.array(m.dof_damping) if damps else np.zeros(m.nv),
         [*_springs(m, joints)] if springs else (),
         [_line(m, i, springs=springs, damps=damps) for i in fixed_tendons(m)],
-        [_motor(m, i) for i in range(m.nu) if acts and _reads(m, i)],
+        [_motor(m, i) for i in range(m.nactuator) if acts and not _strange(m, i)],
         _clamped(m),
         np.array([bool(m.jnt_actgravcomp[j]) for j in m.dof_jntid], dtype=bool),
         _unread(m),
@@ -57,18 +60,21 @@ def named(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
     return mujoco.mj_id2name(model, kind, number) or f"#{number}"
 
 
-def _link(m: mujoco.MjModel, body: int) -> Link:
+def _link(m: mujoco.MjModel, start: mujoco.MjData, body: int) -> Link:
     R = np.zeros(9)
     mujoco.mju_quat2Mat(R, m.body_iquat[body])
     R = R.reshape(3, 3)
-    mocap = m.body_mocapid[body] >= 0
+    mocap = m.body_mocapid[body]
+    place, attitude = m.body_pos[body], m.body_quat[body]
+    if mocap >= 0:
+        place, attitude = start.mocap_pos[mocap], start.mocap_quat[mocap]
     first = m.body_jntadr[body]
     return Link(
         named(m, OBJECT.mjOBJ_BODY, body),
         int(m.body_parentid[body]) - 1,
-        np.array(m.body_pos[body]),
-        np.array(m.body_quat[body]),
-        0.0 if mocap else float(m.body_mass[body]),
+        np.array(place),
+        np.array(attitude),
+        float(m.body_mass[body]),
         np.array(m.body_ipos[body]),
         R @ np.diag(m.body_inertia[body]) @ R.T,
         [_joint(m, j) for j in range(first, first + m.body_jntnum[body])],
@@ -105,10 +111,10 @@ def fixed_tendons(m: mujoco.MjModel) -> list[int]:
 
 
 def _sum(m: mujoco.MjModel, tendon: int) -> Array:
-    found = np.zeros(m.nv)
+    coefficients = np.zeros(m.nv)
     for k in range(m.tendon_adr[tendon], m.tendon_adr[tendon] + m.tendon_num[tendon]):
-        found[m.jnt_dofadr[m.wrap_objid[k]]] += m.wrap_prm[k]
-    return found
+        coefficients[m.jnt_dofadr[m.wrap_objid[k]]] += m.wrap_prm[k]
+    return coefficients
 
 
 def _places(m: mujoco.MjModel) -> Places:
@@ -128,14 +134,13 @@ def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
     )
 
 
-def _reads(m: mujoco.MjModel, i: int) -> bool:
-    """Whether an actuator is a function of its control, of a hinge, a slide or a fixed tendon."""
-    return not _strange(m, i)
-
-
 def _strange(m: mujoco.MjModel, i: int) -> str:
     """Returns what of an actuator is read by no equation here, in words; or nothing."""
     target, transmission = m.actuator_trnid[i, 0], mujoco.mjtTrn(m.actuator_trntype[i])
+    if m.actuator_plugin[i] >= 0:
+        return "a plugin"
+    if m.actuator_ctrlnum[i] != 1:
+        return "another number of controls than one"
     if mujoco.mjtDyn(m.actuator_dyntype[i]) != mujoco.mjtDyn.mjDYN_NONE:
         return "a state of its own"
     if mujoco.mjtGain(m.actuator_gaintype[i]) not in GAINS:
@@ -150,24 +155,25 @@ def _strange(m: mujoco.MjModel, i: int) -> str:
 
 
 def _motor(m: mujoco.MjModel, i: int) -> Motor:
-    target = m.actuator_trnid[i, 0]
+    target, control = m.actuator_trnid[i, 0], m.actuator_ctrladr[i]
     if mujoco.mjtTrn(m.actuator_trntype[i]) == mujoco.mjtTrn.mjTRN_TENDON:
         moments = _sum(m, target)
     else:
         moments = np.zeros(m.nv)
         moments[m.jnt_dofadr[target]] = 1.0
-    clamps = m.actuator_ctrllimited[i] and not m.opt.disableflags & DISABLED.mjDSBL_CLAMPCTRL
+    clamps = m.actuator_ctrllimited[control] and not m.opt.disableflags & DISABLED.mjDSBL_CLAMPCTRL
     affine = mujoco.mjtGain(m.actuator_gaintype[i]) == mujoco.mjtGain.mjGAIN_AFFINE
     biased = mujoco.mjtBias(m.actuator_biastype[i]) == mujoco.mjtBias.mjBIAS_AFFINE
     off = m.opt.disableactuator & (1 << int(m.actuator_group[i])) if m.actuator_group[i] >= 0 else 0
     gain = np.array(m.actuator_gainprm[i, :3])
     return Motor(
         named(m, OBJECT.mjOBJ_ACTUATOR, i),
-        np.zeros(m.nv) if off else moments * m.actuator_gear[i, 0],
+        np.zeros(m.nv) if off else moments * m.actuator_gear[m.actuator_outadr[i], 0],
         _places(m),
+        int(control),
         gain if affine else gain * [1.0, 0.0, 0.0],
         np.array(m.actuator_biasprm[i, :3]) if biased else np.zeros(3),
-        _range(m.actuator_ctrlrange[i], clamps),
+        _range(m.actuator_ctrlrange[control], clamps),
         _range(m.actuator_forcerange[i], m.actuator_forcelimited[i]),
     )
 
@@ -177,21 +183,21 @@ def _range(pair: Array, limited: bool) -> tuple[float, float]:
 
 
 def _clamped(m: mujoco.MjModel) -> Array:
-    found = np.tile([-np.inf, np.inf], (m.nv, 1))
+    bounds = np.tile([-np.inf, np.inf], (m.nv, 1))
     for j in np.flatnonzero(m.jnt_actfrclimited):
         if KINDS[int(m.jnt_type[j])] in ("slide", "hinge"):
-            found[m.jnt_dofadr[j]] = m.jnt_actfrcrange[j]
-    return found
+            bounds[m.jnt_dofadr[j]] = m.jnt_actfrcrange[j]
+    return bounds
 
 
 def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
     """Returns what the model has beside, by the part of the equations that lacks it."""
-    found: dict[str, list[str]] = {part: [] for part in PARTS}
+    unread: dict[str, list[str]] = {part: [] for part in PARTS}
     joint, tendon, actuator = OBJECT.mjOBJ_JOINT, OBJECT.mjOBJ_TENDON, OBJECT.mjOBJ_ACTUATOR
 
     def add(part: str, kind: mujoco.mjtObj, numbers: Iterable[int], what: str) -> None:
         word = {joint: "joint", tendon: "tendon", actuator: "actuator"}[kind]
-        found[part] += [f"{word} {named(m, kind, i)}: {what}" for i in numbers]
+        unread[part] += [f"{word} {named(m, kind, i)}: {what}" for i in numbers]
 
     for i in range(m.nactuator):
         if what := _strange(m, i):
@@ -215,9 +221,9 @@ def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
     add(PASSIVE, actuator, np.flatnonzero(damped), "a damping of its own")
     add(MASS, actuator, np.flatnonzero(m.actuator_armature), "an armature of its own")
     if m.opt.density or m.opt.viscosity:
-        found[PASSIVE].append("option: a fluid (density, viscosity)")
+        unread[PASSIVE].append("option: a fluid (density, viscosity)")
     if m.nflex:
-        found[PASSIVE].append(f"flex: {m.nflex} of them")
+        unread[PASSIVE].append(f"flex: {m.nflex} of them")
     for plugin in range(m.nplugin):
-        found[PASSIVE].append(f"plugin {named(m, OBJECT.mjOBJ_PLUGIN, plugin)}")
-    return {part: words for part, words in found.items() if words}
+        unread[PASSIVE].append(f"plugin {named(m, OBJECT.mjOBJ_PLUGIN, plugin)}")
+    return {part: words for part, words in unread.items() if words}
