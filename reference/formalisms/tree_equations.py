@@ -3,12 +3,12 @@
 A second answer to a compiled model: it sees plain arrays, and no engine.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...cases.tree import Link, Places, Tree, TreeJoint
+from ...cases.tree import Kind, Link, Places, Tree, TreeJoint
 from ..coverage import equation
 from ..system import Array
 
@@ -81,31 +81,45 @@ def frames(tree: Tree, q: Array, v: Array) -> list[Frame]:
         parent = ground if link.parent < 0 else links[link.parent]
         frame = replace(parent.at(parent.E @ link.place), E=parent.E @ rotation(link.attitude))
         for joint in link.joints:
-            frame = _moved(frame, joint, q, v)
+            frame = MOVES[joint.kind](frame, joint, q, v)
         links.append(frame)
     return links
 
 
-def _moved(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
+def _freed(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
     n, k = len(v), joint.v
-    if joint.kind == "free":
-        E = rotation(q[joint.q + 3 : joint.q + 7])
-        placed = Frame(
-            np.array(q[joint.q : joint.q + 3]), np.eye(3), np.zeros(3), _columns(np.eye(3), k, n),
-            np.zeros((3, n)), np.zeros(3), np.zeros(3),
-        )  # fmt: skip
-        return placed.turned(_columns(E, k + 3, n), v, E)
-    if joint.kind == "slide":
-        u = frame.E @ joint.axis
-        return frame.shifted(u, q[joint.q] - joint.zero, _columns(u[:, None], k, n), v)
-    if joint.kind == "ball":
-        R = rotation(q[joint.q : joint.q + 4])
-        J = _columns(frame.E @ R, k, n)
-    else:
-        R = about(joint.axis, q[joint.q] - joint.zero)
-        J = _columns((frame.E @ joint.axis)[:, None], k, n)
+    E = rotation(q[joint.q + 3 : joint.q + 7])
+    placed = Frame(
+        np.array(q[joint.q : joint.q + 3]), np.eye(3), np.zeros(3), _columns(np.eye(3), k, n),
+        np.zeros((3, n)), np.zeros(3), np.zeros(3),
+    )  # fmt: skip
+    return placed.turned(_columns(E, k + 3, n), v, E)
+
+
+def _slid(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
+    u = frame.E @ joint.axis
+    return frame.shifted(u, q[joint.q] - joint.zero, _columns(u[:, None], joint.v, len(v)), v)
+
+
+def _balled(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
+    R = rotation(q[joint.q : joint.q + 4])
+    return _hung(frame, joint, _columns(frame.E @ R, joint.v, len(v)), v, R)
+
+
+def _hinged(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
+    J = _columns((frame.E @ joint.axis)[:, None], joint.v, len(v))
+    return _hung(frame, joint, J, v, about(joint.axis, q[joint.q] - joint.zero))
+
+
+def _hung(frame: Frame, joint: TreeJoint, J: Array, v: Array, R: Array) -> Frame:
     hung = frame.at(frame.E @ joint.anchor).turned(J, v, R)
     return hung.at(-hung.E @ joint.anchor)
+
+
+MOVES: Mapping[Kind, Callable[[Frame, TreeJoint, Array, Array], Frame]] = {
+    "free": _freed, "slide": _slid, "ball": _balled, "hinge": _hinged,
+}  # fmt: skip
+"""By a joint's kind the frame that it makes of the one before it."""
 
 
 def _columns(J: Array, first: int, n: int) -> Array:

@@ -97,7 +97,7 @@ LINES = {
         "return hung.at(-hung.E @ joint.anchor)", "return hung.at(-frame.E @ joint.anchor)",
     ),
     "a joint's zero that plays no part": (
-        "R = about(joint.axis, q[joint.q] - joint.zero)", "R = about(joint.axis, q[joint.q])",
+        "about(joint.axis, q[joint.q] - joint.zero)", "about(joint.axis, q[joint.q])",
     ),
     "a spring that rests at zero": ("rest[:shifts] - now, np", "-now, np"),
 }  # fmt: skip
