@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import mujoco
@@ -11,6 +11,7 @@ import numpy as np
 from ...cases.mistake import CaseError, Mistake
 from ...cases.trajectory import Array
 from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
+from .control import Controls, Law
 from .numbers import named, numbers
 
 LINE = re.compile(r"[Ll]ine(?: number)?[ =](\d+)")
@@ -33,6 +34,13 @@ class OwnModel:
 
     file: str
     model: mujoco.MjModel
+    laws: Mapping[int, Law] = field(default_factory=dict[int, Law])
+    """What some controls follow, by their number; all others stay as they start."""
+
+    @property
+    def controls(self) -> Controls:
+        """What drives it in time."""
+        return Controls(np.array(self.start().ctrl), self.laws)
 
     @cached_property
     def tree(self) -> Tree:
