@@ -1,7 +1,7 @@
 """A case file → its cases, one for each variant, or all of its mistakes at once."""
 
 import functools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import Any
@@ -53,13 +53,13 @@ def load(
             if what != NO_VALUE  # the document has said so
         ]
         cases.append(resolve_case(case_name(path, variant), parsed.file, scene, source, long=long))
-    mistakes += _once(found)
+    mistakes += told_once(found)
     if mistakes:
         raise CaseError(mistakes)
     return cases
 
 
-def _once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
+def told_once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
     """Mistakes of all variants: one that all share once, any other with its variant's name."""
     shared = set.intersection(*(set(mistakes) for mistakes in found.values()))
     return [
@@ -75,11 +75,13 @@ def _once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
 # they are a sound case is asked later, of each variant by itself.
 
 
-def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:
+def overlay(
+    document: Document, keys: Sequence[str] = OVERLAID
+) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:
     """Returns the variants, and what is wrong with the way in which they are written.
 
     The variants are by name ("" where the file has none): the merged data, and the source that
-    says where in the file each of their keys is written.
+    says where in the file each of their keys is written. keys: which a variant may change.
     """
     base = {key: value for key, value in document.data.items() if key != "variants"}
     given = document.data.get("variants", {})
@@ -94,7 +96,9 @@ def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]
     mistakes: list[Mistake] = []
     for name, changes in given.items():
         path: Path = ("variants", name)
-        wrong = [source.mistake((*path, *where), what) for where, what in _mistakes(name, changes)]
+        wrong = [
+            source.mistake((*path, *where), what) for where, what in _mistakes(name, changes, keys)
+        ]
         if wrong:
             mistakes += wrong
         elif changes is not None:
@@ -103,7 +107,7 @@ def overlay(document: Document) -> tuple[dict[str, tuple[dict[str, Any], Source]
     return variants or {"": (base, source)}, mistakes
 
 
-def _mistakes(name: str, changes: object) -> Iterator[tuple[Path, str]]:
+def _mistakes(name: str, changes: object, keys: Sequence[str]) -> Iterator[tuple[Path, str]]:
     """Yields what is wrong with a variant's form: the place below its name, and the words."""
     if not name.isidentifier():
         yield (), f"{name!r} is not a name: letters, digits and _, not starting with a digit"
@@ -113,8 +117,8 @@ def _mistakes(name: str, changes: object) -> Iterator[tuple[Path, str]]:
         yield (), f"should be a map of keys, is {shown(changes)}"
         return
     for key in changes:
-        if key not in OVERLAID:
-            yield (key,), f"unknown key {key!r} in a variant{nearest(key, OVERLAID)}"
+        if key not in keys:
+            yield (key,), f"unknown key {key!r} in a variant{nearest(key, keys)}"
 
 
 def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:

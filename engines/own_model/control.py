@@ -2,24 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
+from ...cases.model_case import Law
 from ...cases.trajectory import Array
-
-
-class Law(Protocol):
-    """A law in time of one number: a `Signal` of one axis, or values that are held."""
-
-    @property
-    def corners(self) -> tuple[float, ...]:
-        """When [s] it jumps or has a kink."""
-        ...
-
-    def at(self, times: Array) -> Array:
-        """(N, 1) its values at the times [s]; on a jump those after it."""
-        ...
 
 
 @dataclass(frozen=True)

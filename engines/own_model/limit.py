@@ -12,7 +12,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ...cases.trajectory import Array
-from .model import BROKEN, OwnModel
+from .model import BROKEN, OwnModel, apart
 
 TIGHT, LOOSE = 1e-10, 1e-8  # relative: what the two answers differ by is the limit's own error
 FLOOR = 1e-3  # of a relative tolerance: the absolute one, of rad and m
@@ -156,14 +156,6 @@ def _turning(q: Array, omega: Array) -> Array:
 
 
 QUATERNION = {0: 3, 1: 0}  # by a joint's type: free, ball: how many shifts stand before it
-
-
-def apart(model: mujoco.MjModel, one: Array, other: Array) -> Array:
-    """(N, n) [rad, m]: by how much each joint has to move from q (N, m) to the other."""
-    joints = np.empty((len(one), model.nv))
-    for row, a, b in zip(joints, one, other, strict=True):
-        mujoco.mj_differentiatePos(model, row, 1.0, a, b)
-    return joints
 
 
 def stepped(

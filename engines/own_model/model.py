@@ -1,5 +1,6 @@
 """A user's model: compiled, or refused in the compiler's words, and what MuJoCo says of states."""
 
+import copy
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -36,6 +37,7 @@ class OwnModel:
     model: mujoco.MjModel
     laws: Mapping[int, Law] = field(default_factory=dict[int, Law])
     """What some controls follow, by their number; all others stay as they start."""
+    begun: mujoco.MjData | None = None
 
     @property
     def controls(self) -> Controls:
@@ -48,25 +50,15 @@ class OwnModel:
         return numbers(self.model, self.start())
 
     def start(self) -> mujoco.MjData:
-        """Returns the first keyframe with its controls.
-
-        Without one it is where the model stands, with rates drawn by chance, as rest hides much;
-        position servos hold where they are, and all else is not driven.
-        """
-        data, m = mujoco.MjData(self.model), self.model
-        if m.nkey:
-            mujoco.mj_resetDataKeyframe(m, data, 0)
-            return data
-        mujoco.mj_forward(m, data)
-        for i in np.flatnonzero(m.actuator_biasprm[:, 1] == -m.actuator_gainprm[:, 0]):
-            if m.actuator_gainprm[i, 0]:
-                data.ctrl[m.actuator_ctrladr[i]] = data.actuator_length[m.actuator_outadr[i]]
-        data.qvel[:] = np.random.default_rng(0).uniform(-RATE, RATE, m.nv)
-        return data
+        """Returns where it starts, by default as `drawn_start` has it with the first keyframe."""
+        begun = self.begun or drawn_start(self.model, 0 if self.model.nkey else None)
+        return copy.copy(begun)
 
     @property
     def started(self) -> str:
         """From where it is started, in words."""
+        if self.begun is not None:
+            return "from where its case says"
         if self.model.nkey:
             name = named(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
             return f"from its keyframe {name}, with the keyframe's controls"
@@ -113,6 +105,40 @@ class OwnModel:
         return (
             f"MuJoCo {mujoco.__version__} compiles it: {words or 'nothing moves'}; own step {step}"
         )
+
+
+def drawn_start(
+    model: mujoco.MjModel, keyframe: int | None, *, still: bool = False
+) -> mujoco.MjData:
+    """Returns a keyframe with its controls, or where the model stands.
+
+    There position servos hold where they are, all else is not driven, and unless it is to be still
+    rates are drawn by chance, as rest hides much.
+    """
+    data, m = mujoco.MjData(model), model
+    if keyframe is not None:
+        mujoco.mj_resetDataKeyframe(m, data, keyframe)
+        return data
+    mujoco.mj_forward(m, data)
+    for i in np.flatnonzero(m.actuator_biasprm[:, 1] == -m.actuator_gainprm[:, 0]):
+        if m.actuator_gainprm[i, 0]:
+            data.ctrl[m.actuator_ctrladr[i]] = data.actuator_length[m.actuator_outadr[i]]
+    if not still:
+        data.qvel[:] = drawn_rates(m)
+    return data
+
+
+def drawn_rates(model: mujoco.MjModel, most: float = RATE, seed: int = 0) -> Array:
+    """(n,) rates up to `most` [rad/s, m/s], drawn by chance."""
+    return np.random.default_rng(seed).uniform(-most, most, model.nv)
+
+
+def apart(model: mujoco.MjModel, one: Array, other: Array) -> Array:
+    """(N, n) [rad, m]: by how much each joint has to move from q (N, m) to the other."""
+    joints = np.empty((len(one), model.nv))
+    for row, a, b in zip(joints, one, other, strict=True):
+        mujoco.mj_differentiatePos(model, row, 1.0, a, b)
+    return joints
 
 
 def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:

@@ -1,0 +1,141 @@
+"""Quantities of a model's motion that can be bounded, by its names: `elbow.angle`, `hand.place`."""
+
+import copy
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import mujoco
+import numpy as np
+
+from ...cases.trajectory import Array
+from .model import OwnModel, apart
+from .numbers import named
+
+Of = Literal["joint", "place", "turn", "sensor", "force", "energy"]
+OBJECT = mujoco.mjtObj
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of a model: its name and unit, of what it is, and which numbers of that."""
+
+    name: str
+    unit: str
+    of: Of
+    first: int = 0
+    wide: int = 1
+
+
+def quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
+    """Yields all that can be bounded: joints, bodies, sensors, forces of actuators, energy."""
+    yield from joint_quantities(model)
+    for i in range(1, model.nbody):
+        name = called(model, OBJECT.mjOBJ_BODY, i)
+        yield Quantity(f"{name}.place", "m", "place", i)
+        yield Quantity(f"{name}.turn", "rad", "turn", i)
+    for i in range(model.nsensor):
+        name = called(model, OBJECT.mjOBJ_SENSOR, i)
+        first, wide = int(model.sensor_adr[i]), int(model.sensor_dim[i])
+        yield Quantity(f"{name}.value", "", "sensor", first, wide)
+    for i in range(model.nactuator):
+        name, first = called(model, OBJECT.mjOBJ_ACTUATOR, i), int(model.actuator_outadr[i])
+        yield Quantity(f"{name}.force", "", "force", first)
+    yield Quantity("energy", "J", "energy")
+
+
+def joint_quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
+    """Yields those of the joints; a free one has a place and a turn."""
+    for i in range(model.njnt):
+        name, first = called(model, OBJECT.mjOBJ_JOINT, i), int(model.jnt_dofadr[i])
+        kind = int(model.jnt_type[i])
+        for field, unit, shift, wide in FIELDS[kind]:
+            yield Quantity(f"{name}.{field}", unit, "joint", first + shift, wide)
+
+
+FIELDS = {
+    0: (("place", "m", 0, 3), ("turn", "rad", 3, 3)),
+    1: (("turn", "rad", 0, 3),),
+    2: (("shift", "m", 0, 1),),
+    3: (("angle", "rad", 0, 1),),
+}
+"""By a joint's type its quantities: name, unit, and which of its velocities move it."""
+
+
+def called(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
+    """Returns an element's name in a table; one that a table would misread stands in quotes."""
+    name = named(model, kind, number)
+    if name.startswith("#"):
+        return f"{WORDS[kind]} {number}"
+    sound = name[0].isalnum() or name[0] == "_"
+    return name if sound and name.isprintable() else repr(name)
+
+
+WORDS = {
+    OBJECT.mjOBJ_BODY: "body", OBJECT.mjOBJ_JOINT: "joint", OBJECT.mjOBJ_SENSOR: "sensor",
+    OBJECT.mjOBJ_ACTUATOR: "actuator",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Samples of a model's motion: times (N,) [s] and y (N, m + n + a) of (qpos, qvel, act)."""
+
+    own: OwnModel
+    times: Array
+    y: Array
+
+    @property
+    def q(self) -> Array:
+        """(N, m) the coordinates."""
+        return self.y[:, : self.own.model.nq]
+
+
+def differences(asked: Sequence[Quantity], a: Motion, b: Motion) -> dict[Quantity, Array]:
+    """Returns by quantity (N, k) how two motions differ, in components; of a turn the angle."""
+    by_joint = apart(a.own.model, a.q, b.q)
+    others = [quantity for quantity in asked if quantity.of != "joint"]
+    ours, theirs = observed(others, a), observed(others, b)
+    found: dict[Quantity, Array] = {}
+    for quantity in asked:
+        if quantity.of == "joint":
+            found[quantity] = by_joint[:, quantity.first : quantity.first + quantity.wide]
+        elif quantity.of == "turn":
+            found[quantity] = _angles(ours[quantity], theirs[quantity])
+        else:
+            found[quantity] = theirs[quantity] - ours[quantity]
+    return found
+
+
+def _angles(one: Array, other: Array) -> Array:
+    """(N, 1) [rad]: the angles of the turns from attitudes (N, 4) to others."""
+    sign = np.sign(np.einsum("ij,ij->i", one, other))[:, None]
+    half = np.linalg.norm(one * sign - other, axis=1, keepdims=True) / 2
+    return 4 * np.arcsin(np.minimum(half, 1.0))
+
+
+def observed(asked: Sequence[Quantity], motion: Motion) -> dict[Quantity, Array]:
+    """Returns (N, k) by quantity, as MuJoCo computes it in the states."""
+    values: dict[Quantity, list[Array]] = {quantity: [] for quantity in asked}
+    if not asked:
+        return {}
+    own, m = motion.own, copy.copy(motion.own.model)
+    m.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+    data, controls = own.start(), own.controls
+    for t, y in zip(motion.times, motion.y, strict=True):
+        data.time, data.ctrl[:] = t, controls.at(float(t))
+        data.qpos[:], data.qvel[:], data.act[:] = np.split(y, [m.nq, m.nq + m.nv])
+        mujoco.mj_forward(m, data)
+        for quantity, samples in values.items():
+            samples.append(READ[quantity.of](data, quantity))
+    return {quantity: np.array(samples) for quantity, samples in values.items()}
+
+
+READ: Mapping[Of, Callable[[mujoco.MjData, Quantity], Array]] = {
+    "place": lambda data, body: data.xpos[body.first].copy(),
+    "turn": lambda data, body: data.xquat[body.first].copy(),
+    "sensor": lambda data, s: data.sensordata[s.first : s.first + s.wide].copy(),
+    "force": lambda data, actuator: data.actuator_force[[actuator.first]],
+    "energy": lambda data, _: data.energy.sum(keepdims=True),
+}
+"""By what a quantity is of, its numbers in a state."""
