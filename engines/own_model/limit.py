@@ -4,8 +4,9 @@ It is the engine's *limit* for h → 0, and no reference: it proves nothing abou
 """
 
 import copy
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import mujoco
 import numpy as np
@@ -37,7 +38,7 @@ class NoLimit(Exception):
 
 @dataclass(frozen=True)
 class Limit:
-    """The motion for h → 0: q (N, m) at the times (N,) [s].
+    """The motion for h → 0: q (N, m) and y (N, m + n + a) = (qpos, qvel, act) at times (N,) [s].
 
     error: by how much two answers differ, the largest of all coordinates; method: what integrates.
     """
@@ -46,6 +47,7 @@ class Limit:
     q: Array
     error: float
     method: str
+    y: Array
 
 
 def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Limit:
@@ -63,18 +65,20 @@ def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Li
             tight, loose = (equations.followed(times, method, rtol) for rtol in (TIGHT, LOOSE))
         except _TooMany:
             continue
-        return Limit(times, tight, _error(own.model, tight, loose), method)
+        return _limit(own, times, tight, loose, method)
     h = own.model.opt.timestep
     if apart_by_pairs(own.model):
         raise NoLimit(f"{MOST} accelerations do not suffice, and {PAIRS}")
-    fine, coarse = (stepped(own, times, None, h / n, begun) for n in (FINE, FINE // 2))
+    fine, coarse = (ran(own, times, None, h / n, begun) for n in (FINE, FINE // 2))
     if fine is None or coarse is None:
         raise NoLimit(f"{MOST} accelerations do not suffice, and small steps diverge")
-    return Limit(times, fine, _error(own.model, fine, coarse), f"its own steps of {h / FINE:.2g} s")
+    return _limit(own, times, fine, coarse, f"its own steps of {h / FINE:.2g} s")
 
 
-def _error(model: mujoco.MjModel, one: Array, other: Array) -> float:
-    return float(np.abs(apart(model, one, other)).max(initial=0.0))
+def _limit(own: OwnModel, times: Array, y: Array, other: Array, method: str) -> Limit:
+    nq = own.model.nq
+    error = float(np.abs(apart(own.model, y[:, :nq], other[:, :nq])).max(initial=0.0))
+    return Limit(times, y[:, :nq], error, method, y)
 
 
 def with_step(m: mujoco.MjModel) -> list[str]:
@@ -116,7 +120,7 @@ class Equations:
         return np.concatenate([self._q_dot(y), d.qacc, d.act_dot])
 
     def followed(self, times: Array, method: Method, rtol: float) -> Array:
-        """Returns q (N, m) at the times, to a relative tolerance. Raises _TooMany."""
+        """Returns y (N, m + n + a) at the times, to a relative tolerance. Raises _TooMany."""
         self.asked = 0
         span = float(times[0]), float(times[-1])
         answer = solve_ivp(
@@ -125,7 +129,7 @@ class Equations:
         )  # fmt: skip
         if not answer.success:
             raise _TooMany
-        return answer.y.T[:, : self.model.nq]
+        return answer.y.T
 
     def _set(self, y: Array) -> None:
         nq, nv = self.model.nq, self.model.nv
@@ -165,13 +169,25 @@ def stepped(
     h: float,
     start: mujoco.MjData | None = None,
 ) -> Array | None:
-    """Returns q (N, m) of MuJoCo's own steps h [s] at the times; None where it diverges.
+    """Returns q (N, m) of MuJoCo's own steps h [s] at the times; None where it diverges."""
+    y = ran(own, times, {} if integrator is None else {"integrator": integrator}, h, start)
+    return None if y is None else y[:, : own.model.nq]
 
-    integrator: by its name, None: the model's. times: multiples of h.
+
+def ran(
+    own: OwnModel,
+    times: Array,
+    options: Mapping[str, Any] | None,
+    h: float,
+    start: mujoco.MjData | None = None,
+) -> Array | None:
+    """Returns y (N, m + n + a) of MuJoCo's own steps h [s] at the times; None where it diverges.
+
+    options: of `mjOption`, by name, over the model's own. times: multiples of h.
     """
     model = copy.copy(own.model) if h >= own.model.opt.timestep else _with_law_of(own.model)
-    if integrator is not None:
-        model.opt.integrator = INTEGRATORS[integrator]
+    for name, value in (options or {}).items():
+        setattr(model.opt, name, WORDS.get(name, {}).get(value, value))
     model.opt.timestep = h
     data, states = begun_as(model, start or own.start()), list[Array]()
     for steps in np.diff(np.rint(times / h).astype(int), prepend=0):
@@ -179,7 +195,7 @@ def stepped(
             mujoco.mj_step(model, data, int(steps))
         if any(int(data.warning[kind].number) for kind in BROKEN):
             return None
-        states.append(data.qpos.copy())
+        states.append(np.concatenate([data.qpos, data.qvel, data.act]))
     return np.array(states)
 
 
@@ -194,8 +210,22 @@ def begun_as(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:
 INTEGRATORS = {
     "Euler": mujoco.mjtIntegrator.mjINT_EULER,
     "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    "implicit": mujoco.mjtIntegrator.mjINT_IMPLICIT,
     "RK4": mujoco.mjtIntegrator.mjINT_RK4,
 }
+WORDS: Mapping[str, Mapping[str, int]] = {
+    "integrator": INTEGRATORS,
+    "solver": {
+        "PGS": mujoco.mjtSolver.mjSOL_PGS,
+        "CG": mujoco.mjtSolver.mjSOL_CG,
+        "Newton": mujoco.mjtSolver.mjSOL_NEWTON,
+    },
+    "cone": {
+        "pyramidal": mujoco.mjtCone.mjCONE_PYRAMIDAL,
+        "elliptic": mujoco.mjtCone.mjCONE_ELLIPTIC,
+    },
+}
+"""Options of `mjOption` that are words, by their names in MJCF."""
 
 
 PAIRS = (

@@ -15,6 +15,7 @@ from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
 from .control import Controls, Law
 from .numbers import named, numbers
 
+VERSION = mujoco.__version__
 LINE = re.compile(r"[Ll]ine(?: number)?[ =](\d+)")
 RATE = 0.5  # rad/s, m/s: of rates that are drawn, so that no term of an equation rests
 REACH = 0.5  # rad, m: how far coordinates are drawn about the start

@@ -1,32 +1,36 @@
-"""A user's model at its own step and at finer ones, by each integrator, against its limit.
+"""A user's model at its own step and at finer ones, in several settings, against its limit.
 
 The limit is of the engine's own continuous equations: what is off is the step's, and nothing is
 said of the equations. These are compared in `own_equations`.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from ...cases.model_case import ModelCase
 from ...cases.trajectory import Array
 from ...engines.own_model.limit import (
     INTEGRATORS,
     PAIRS,
     Limit,
-    apart,
     apart_by_pairs,
     limit,
-    stepped,
-)  # fmt: skip
+    ran,
+)
 from ...engines.own_model.model import OwnModel, moved
-from .judge.convergence import instants, study
+from ...engines.own_model.opened import Opened
+from ...engines.own_model.quantities import Motion, Quantity, differences
+from .judge.convergence import Convergence, instants, study
+from .judge.metric import sizes
 
-DURATION, SAMPLES = 1.0, 25  # s, and how many samples after the start at most
-TOLERANCE = 1e-3  # rad, m
 RUNGS = (4.0, 2.0, 1.0, 1 / 2, 1 / 4, 1 / 8)  # of its own step
 DISTURBED = 1e-9  # rad, m: what grows from it to the tolerance is chaos, and judged no longer
 OWN = "own"
+OTHERS = {"shipped": "Euler", "recommended": "implicitfast", "rk4": "RK4"}
+"""Further settings: what MuJoCo ships, what its documentation advises, and RK4."""
 Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 ROUNDING = 1e-12  # rad, m: below it errors are of rounding
 CLEAR = 10  # times the limit's own error: below it an order is of that
@@ -34,86 +38,156 @@ KNOWN = 0.1  # of the tolerance: a limit that is not known so well judges nothin
 
 
 @dataclass(frozen=True)
-class Step:
-    """An integrator at a model's own step: the worst joint, and how its error falls on a ladder.
+class Setting:
+    """Options of `mjOption`, by name, over a model's own, and the step [s]."""
 
-    off [rad, m] at the time `when` [s]; None where it diverges. order: of the error's
-    size, where that is clear. keeps: the largest step tried [s] from which on the tolerance is
-    kept.
+    name: str
+    options: Mapping[str, Any]
+    step: float
+
+
+@dataclass(frozen=True)
+class Error:
+    """How far off a quantity is in a setting: over time (N,), and what its ladder says.
+
+    None, where the setting diverges at its own step.
     """
 
-    setting: str
-    step: float
-    joint: str
-    off: float | None
-    when: float | None
-    order: float | None
-    keeps: float | None
+    off: Array | None
+    ladder: Convergence | None
+
+
+@dataclass(frozen=True)
+class Stepped:
+    """A model in a setting: by quantity how far off it is; y (N, m + n + a), None: it diverges."""
+
+    setting: Setting
+    y: Array | None
+    errors: Mapping[Quantity, Error]
+
+    @property
+    def keeps(self) -> float | None:
+        """The largest step [s] from which on every quantity keeps its bar."""
+        ladders = [error.ladder for error in self.errors.values()]
+        usable = [ladder.usable_step if ladder else None for ladder in ladders]
+        return None if None in usable else min((h for h in usable if h is not None), default=None)
 
 
 @dataclass(frozen=True)
 class Steps:
-    """A model at its steps: its limit, until when it is judged [s], and a row an integrator."""
+    """A model at its steps: its limit, until when it is judged [s], and each setting."""
 
     limit: Limit
     until: float
-    tolerance: float
-    rows: Sequence[Step]
-    note: str
+    settings: Sequence[Stepped]
+    note: str = ""
+    bars: Mapping[Quantity, float] = field(default_factory=dict[Quantity, float])
 
     @property
-    def judges(self) -> bool:
-        """Whether the limit is known well enough to say which step keeps the tolerance."""
-        return self.limit.error <= KNOWN * self.tolerance
+    def times(self) -> Array:
+        """The samples that are judged."""
+        return self.limit.times[self.limit.times <= self.until]
 
 
-def steps(own: OwnModel, tolerance: float = TOLERANCE) -> Steps:
-    """Runs a model by its own and by the other integrators. Raises NoLimit."""
-    h = own.model.opt.timestep
-    whole = int(max(RUNGS))  # each rung meets the samples
-    every = whole * max(1, round(DURATION / SAMPLES / h / whole))
-    count = max(1, int(DURATION / (every * h) + 1e-9))
-    times = np.arange(count + 1) * (every * h)
+def settings_of(own: OwnModel, named: Sequence[Setting] = ()) -> list[Setting]:
+    """Returns the model's own setting, the others that differ from it, and those that are named."""
+    h, integrator = own.model.opt.timestep, own.model.opt.integrator
+    others = [
+        Setting(name, {"integrator": word}, h)
+        for name, word in OTHERS.items()
+        if INTEGRATORS[word] != integrator
+    ]
+    return [Setting(OWN, {}, h), *others, *named]
+
+
+def times_of(case: ModelCase, steps: Sequence[float]) -> Array:
+    """(N,) [s] about as many samples as the case asks for, at which every rung of a ladder has one.
+
+    They are multiples of the coarsest rungs of all settings, whose steps may differ.
+    """
+    apart = case.duration / (case.samples - 1)
+    grid = max(RUNGS) * max(steps)
+    for whole in range(1, MOST):  # settings of 2 and 5 ms share 40 ms
+        if all(_whole(whole * grid / (max(RUNGS) * h)) for h in steps):
+            grid *= whole
+            break
+    every = grid * max(1, round(apart / grid))
+    return np.arange(max(1, int(case.duration / every + 1e-9)) + 1, dtype=np.float64) * every
+
+
+MOST = 100  # times the coarsest rung, of a grid that all settings share
+
+
+def _whole(number: float) -> bool:
+    return abs(number - round(number)) < 1e-9
+
+
+def steps(case: ModelCase, opened: Opened, named: Sequence[Setting] = ()) -> Steps:
+    """Runs a model in all settings. Raises NoLimit."""
+    own, bars = opened.own, opened.bars
+    asked = settings_of(own, named)
+    times = times_of(case, [setting.step for setting in asked])
     exact = limit(own, times)
-    until = _horizon(own, exact, tolerance)
-    judged = times <= until
-    others = [name for name, word in INTEGRATORS.items() if word != own.model.opt.integrator]
-    rows = [_row(own, name, exact, judged, tolerance) for name in (OWN, *others)]
-    return Steps(exact, until, tolerance, rows, PAIRS if apart_by_pairs(own.model) else "")
+    until = _horizon(opened, exact)
+    note = PAIRS if apart_by_pairs(own.model) else ""
+    rows = [_stepped(opened, setting, exact, times <= until) for setting in asked]
+    return Steps(exact, until, rows, note, bars)
 
 
-def _horizon(own: OwnModel, exact: Limit, tolerance: float) -> float:
-    """Returns until when a disturbance of the start stays below the tolerance."""
+def _horizon(opened: Opened, exact: Limit) -> float:
+    """Returns until when a disturbance of the start stays below every bar."""
+    own, bars = opened.own, opened.bars
     start = own.start()
     by = np.random.default_rng(0).choice((-DISTURBED, DISTURBED), own.model.nv)
     start.qpos[:] = moved(own.model, start.qpos, by)
-    off = np.abs(apart(own.model, exact.q, limit(own, exact.times, start).q)).max(axis=1)
-    far = np.flatnonzero(off > tolerance)
+    other = limit(own, exact.times, start)
+    a, b = (Motion(own, exact.times, each.y) for each in (exact, other))
+    off = differences([*bars], a, b)
+    ratios = [sizes(values) / bars[quantity] for quantity, values in off.items()]
+    far = np.flatnonzero(np.max(ratios, axis=0) > 1.0) if ratios else []
     return float(exact.times[max(far[0] - 1, 0)] if len(far) else exact.times[-1])
 
 
-def _row(own: OwnModel, name: str, exact: Limit, judged: Mask, tolerance: float) -> Step:
-    h, integrator = own.model.opt.timestep, None if name == OWN else name
-    ladder: dict[float, Array] = {}
+def _stepped(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> Stepped:
+    own, bars = opened.own, opened.bars
+    off: dict[float, dict[Quantity, Array]] = {}
+    y: Array | None = None
+    wanted = Motion(own, exact.times, exact.y)
     for k in sorted(_rungs(own)):  # the finest first: above one that diverges none is usable
-        q = stepped(own, exact.times, integrator, h * k)
-        if q is None:
+        h = setting.step * k
+        samples = ran(own, exact.times, setting.options, h)
+        if samples is None:
             break
-        ladder[h * k] = apart(own.model, exact.q, q)[judged]
+        y = samples if k == 1.0 else y
+        off[h] = differences([*bars], wanted, Motion(own, exact.times, samples))
+    errors = {quantity: _error(quantity, off, setting, exact, judged, bars) for quantity in bars}
+    return Stepped(setting, y, errors)
+
+
+def _error(
+    quantity: Quantity,
+    off: Mapping[float, Mapping[Quantity, Array]],
+    setting: Setting,
+    exact: Limit,
+    judged: Mask,
+    bars: Mapping[Quantity, float],
+) -> Error:
+    ladder = {h: by_quantity[quantity][judged] for h, by_quantity in off.items()}
+    at_own = ladder.get(setting.step)
+    over_time = None if at_own is None else np.asarray(sizes(at_own))
+    if not ladder:
+        return Error(over_time, None)
     floor = max(CLEAR * exact.error, ROUNDING)
-    known = exact.error <= KNOWN * tolerance
-    keeps = instants(_largest(ladder), tolerance).usable_step if known else None
-    clear = {step: off for step, off in ladder.items() if np.abs(off).max() > floor}
-    order = None
-    if clear:
-        zero = np.zeros_like(next(iter(clear.values())))
-        order = study(clear, zero, exponents=(), allow=tolerance, floor=floor).order
-    if (off := ladder.get(h)) is None:
-        return Step(name, h, "", None, None, order, keeps)
-    k, joint = np.unravel_index(int(np.argmax(np.abs(off))), off.shape)
-    worst = float(np.abs(off).max())
-    where = own.tree.named(int(joint)) if worst else ""
-    return Step(name, h, where, worst, float(exact.times[k]), order, keeps)
+    bar = bars[quantity]
+    largest = {h: float(np.max(sizes(errors))) for h, errors in ladder.items()}
+    clear = {h: errors for h, errors in ladder.items() if largest[h] > floor}
+    if not clear:
+        return Error(over_time, instants(largest, bar))
+    zero = np.zeros_like(next(iter(clear.values())))
+    found = study(clear, zero, exponents=(), allow=bar, floor=floor)
+    usable = instants(largest, bar).usable_step
+    return Error(over_time, Convergence(found.verdict, largest, usable, found.order,
+                                        found.order_low, found.order_high))  # fmt: skip
 
 
 def _rungs(own: OwnModel) -> tuple[float, ...]:
@@ -121,5 +195,8 @@ def _rungs(own: OwnModel) -> tuple[float, ...]:
     return tuple(k for k in RUNGS if k >= 1) if apart_by_pairs(own.model) else RUNGS
 
 
-def _largest(ladder: Mapping[float, Array]) -> dict[float, float]:
-    return {step: float(np.abs(off).max()) for step, off in ladder.items()}
+def integrator_of(own: OwnModel, setting: Setting) -> str:
+    """Returns the name of the integrator that a setting steps with."""
+    number = own.model.opt.integrator
+    names = [name for name, each in INTEGRATORS.items() if each == number]
+    return str(setting.options.get("integrator") or names[0])

@@ -1,0 +1,170 @@
+"""The rows of a user's model, in the tables of all cases: its limit stands for a reference."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ...cases.model_case import ModelCase
+from ...engines.own_model.limit import Limit, NoLimit
+from ...engines.own_model.model import VERSION, OwnModel
+from ...engines.own_model.opened import opened
+from ...engines.own_model.quantities import Quantity
+from ..tables.row import (
+    AGREES,
+    BEYOND,
+    DIVERGED,
+    FAILS,
+    REFUSED,
+    Certificate,
+    Comparison,
+    Rungs,
+    StepError,
+)
+from .judge import metric
+from .own_equations import ROUNDING, Part, equations
+from .own_steps import KNOWN, Error, Setting, Stepped, Steps, integrator_of, steps
+
+ENGINE, THEME, NATIVE, HELD = "mujoco", "own model", "native", "held"
+DIGITS = 1e-3  # of an error: below it are digits that another processor has otherwise
+
+
+@dataclass(frozen=True)
+class Modelled:
+    """A model's rows, and what is said of it: what it is, its start, its steps, its equations.
+
+    because: why there are no steps.
+    """
+
+    case: ModelCase
+    model: str
+    started: str
+    steps: Steps | None
+    parts: Sequence[Part]
+    because: str = ""
+    comparisons: Sequence[Comparison] = ()
+    rungs: Sequence[Rungs] = ()
+    step_errors: Sequence[StepError] = ()
+    certificates: Sequence[Certificate] = ()
+
+    @property
+    def limit(self) -> Limit | None:
+        """The model's motion for h → 0."""
+        return None if self.steps is None else self.steps.limit
+
+
+def modelled(case: ModelCase, settings: Sequence[Setting] = ()) -> Modelled:
+    """Returns the rows of a model: its equations, and its steps in all settings.
+
+    settings: further ones, of the user's files. Raises CaseError if it does not compile, or lacks
+    a name of the case.
+    """
+    ready = opened(case)
+    own = ready.own
+    parts = equations(own)
+    certificates = [*_certificates(case, parts)]
+    if not own.model.nv:
+        return Modelled(case, str(own), "", None, parts, "nothing moves")
+    try:
+        result = steps(case, ready, settings)
+    except NoLimit as error:
+        because = f"no limit: {error}"
+        rows = [_refused(case, q, bar, because) for q, bar in ready.bars.items()]
+        return Modelled(case, str(own), own.started, None, parts, because, rows, (), (),
+                        certificates)  # fmt: skip
+    if result.limit.error <= KNOWN * min(ready.bars.values()):
+        certificates.append(_known(case, result))
+    each = [(stepped, q, error) for stepped in result.settings for q, error in
+            stepped.errors.items()]  # fmt: skip
+    return Modelled(
+        case, str(own), own.started, result, parts, "",
+        [_row(case, own, result, *one) for one in each],
+        [row for one in each for row in _rungs(case, *one)],
+        [row for one in each for row in _step_errors(case, *one)],
+        certificates,
+    )  # fmt: skip
+
+
+def _row(
+    case: ModelCase, own: OwnModel, result: Steps, stepped: Stepped, q: Quantity, error: Error
+) -> Comparison:
+    bar, setting = result.bars[q], stepped.setting
+    limit = result.limit
+    how = f"{integrator_of(own, setting)} against the limit by {limit.method}"
+    if error.off is None:
+        return _comparison(case, setting, q, bar, how, DIVERGED, because="its own step diverges")
+    size = metric.error(error.off, error.off * 0.0)
+    least = max(limit.error, DIGITS * size.largest)
+    largest = metric.round_to_floor(size.largest, least)
+    because = ""
+    if largest - limit.error > bar:
+        verdict = BEYOND
+    elif largest + limit.error <= bar:
+        verdict = AGREES
+    else:
+        verdict, because = REFUSED, f"the limit is known to {limit.error:.0e} only"
+    if result.until < limit.times[-1]:
+        late = f"judged until {result.until:.3g} s: later a disturbance of 1e-9 exceeds a bar"
+        because = "; ".join(filter(None, [because, late]))
+    return _comparison(
+        case, setting, q, bar, how, verdict,
+        error=largest,
+        when=float(result.times[size.at]) if largest else None,
+        rms=metric.round_to_floor(size.rms, least),
+        final=metric.round_to_floor(size.final, least),
+        ratio=largest / bar,
+        because=because,
+    )  # fmt: skip
+
+
+def _comparison(
+    case: ModelCase, setting: Setting, q: Quantity, bar: float, protocol: str, verdict: str,
+    *, error: float | None = None, when: float | None = None, rms: float | None = None,
+    final: float | None = None, ratio: float | None = None, because: str = "",
+) -> Comparison:  # fmt: skip
+    return Comparison(
+        case.name, THEME, case.title, ENGINE, VERSION, setting.name, NATIVE, protocol, q.name,
+        q.unit, setting.step, error, when, rms, final, bar, ratio, verdict, because,
+    )  # fmt: skip
+
+
+def _refused(case: ModelCase, q: Quantity, bar: float, because: str) -> Comparison:
+    return Comparison(
+        case.name, THEME, case.title, ENGINE, VERSION, "own", NATIVE, "", q.name, q.unit,
+        None, None, None, None, None, bar, None, REFUSED, because,
+    )  # fmt: skip
+
+
+def _rungs(case: ModelCase, stepped: Stepped, q: Quantity, error: Error) -> Iterator[Rungs]:
+    if (found := error.ladder) is None:
+        return
+    yield Rungs(
+        case.name, ENGINE, VERSION, stepped.setting.name, NATIVE, HELD, q.name, q.unit,
+        found.order, found.order_low, found.order_high, None, None, found.usable_step,
+        found.verdict,
+    )  # fmt: skip
+
+
+def _step_errors(
+    case: ModelCase, stepped: Stepped, q: Quantity, error: Error
+) -> Iterator[StepError]:
+    for h, size in sorted(error.ladder.errors.items()) if error.ladder else ():
+        rounded = metric.round_to_floor(size, DIGITS * size)
+        yield StepError(
+            case.name, ENGINE, stepped.setting.name, NATIVE, HELD, q.name, q.unit, h, rounded
+        )
+
+
+def _certificates(case: ModelCase, parts: Sequence[Part]) -> Iterator[Certificate]:
+    for part in parts:
+        if part.off is not None:
+            difference = metric.round_to_floor(part.off, ROUNDING)
+            verdict = "holds" if part.holds else FAILS
+            yield Certificate(case.name, case.title, "compiled", part.name, difference, ROUNDING,
+                              None, "", verdict)  # fmt: skip
+
+
+def _known(case: ModelCase, result: Steps) -> Certificate:
+    """The row of the limit's own error."""
+    bound = KNOWN * min(result.bars.values())
+    error = result.limit.error
+    return Certificate(case.name, case.title, result.limit.method, "error of the limit", error,
+                       bound, error, "", "holds")  # fmt: skip
