@@ -7,6 +7,7 @@ from .mistake import CaseError, Mistake, nearest, plain, unseen
 
 LONGEST = 100  # letters of a name: with a variant's and an ending it has to make a file's name
 SUFFIXES = (".yaml", ".yml")
+MODELS = "models"
 QUESTIONS = "questions"  # the folder of cases that answer public questions
 
 
@@ -28,7 +29,16 @@ def questions() -> dict[str, Path]:
 def is_shipped(file: Path | str) -> bool:
     """Whether the file is one that comes with the suite: told by its place, for rows ask often."""
     path, home = Path(file).resolve(), Path(__file__).resolve().parent
-    return path.parent in (home, home / QUESTIONS) and path.suffix == ".yaml" and path.is_file()
+    return (
+        path.parent in (home, home / QUESTIONS, home / MODELS)
+        and path.suffix == ".yaml"
+        and path.is_file()
+    )
+
+
+def models() -> dict[str, Path]:
+    """The case files of models that come with the suite, by name."""
+    return _in(Path(__file__).parent / MODELS)
 
 
 def _in(folder: Path) -> dict[str, Path]:

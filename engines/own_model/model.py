@@ -39,6 +39,8 @@ class OwnModel:
     laws: Mapping[int, Law] = field(default_factory=dict[int, Law])
     """What some controls follow, by their number; all others stay as they start."""
     begun: mujoco.MjData | None = None
+    begins: str = ""
+    """From where, in words, if it is not by default."""
 
     @property
     def controls(self) -> Controls:
@@ -58,8 +60,8 @@ class OwnModel:
     @property
     def started(self) -> str:
         """From where it is started, in words."""
-        if self.begun is not None:
-            return "from where its case says"
+        if self.begins:
+            return f"from {self.begins}"
         if self.model.nkey:
             name = named(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
             return f"from its keyframe {name}, with the keyframe's controls"
@@ -140,6 +142,13 @@ def apart(model: mujoco.MjModel, one: Array, other: Array) -> Array:
     for row, a, b in zip(joints, one, other, strict=True):
         mujoco.mj_differentiatePos(model, row, 1.0, a, b)
     return joints
+
+
+def image(model: mujoco.MjModel) -> bytes:
+    """Returns all numbers of a compiled model."""
+    buffer = np.empty(mujoco.mj_sizeModel(model), dtype=np.uint8)
+    mujoco.mj_saveModel(model, None, buffer)
+    return buffer.tobytes()
 
 
 def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:

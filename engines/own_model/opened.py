@@ -42,7 +42,8 @@ def opened(case: ModelCase) -> Opened:
     bars = dict(_bars(model, case, mistakes))
     if mistakes:
         raise CaseError(mistakes)
-    started = replace(own, laws=laws, begun=begun)
+    begins = "" if case.initial == ModelStart() else "where its case says"
+    started = replace(own, laws=laws, begun=begun, begins=begins)
     for number in laws:
         begun.ctrl[number] = started.controls.at(0.0)[number]
     return Opened(started, bars)

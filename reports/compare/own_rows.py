@@ -1,7 +1,7 @@
 """The rows of a user's model, in the tables of all cases: its limit stands for a reference."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from ...cases.model_case import ModelCase
 from ...engines.own_model.limit import Limit, NoLimit
@@ -11,6 +11,7 @@ from ...engines.own_model.quantities import Quantity
 from ..tables.row import (
     AGREES,
     BEYOND,
+    CRASHED,
     DIVERGED,
     FAILS,
     REFUSED,
@@ -21,7 +22,7 @@ from ..tables.row import (
 )
 from .judge import metric
 from .own_equations import ROUNDING, Part, equations
-from .own_steps import KNOWN, Error, Setting, Stepped, Steps, integrator_of, steps
+from .own_steps import KNOWN, OTHERS, OWN, Error, Setting, Stepped, Steps, integrator_of, steps
 
 ENGINE, THEME, NATIVE, HELD = "mujoco", "own model", "native", "held"
 DIGITS = 1e-3  # of an error: below it are digits that another processor has otherwise
@@ -31,7 +32,7 @@ DIGITS = 1e-3  # of an error: below it are digits that another processor has oth
 class Modelled:
     """A model's rows, and what is said of it: what it is, its start, its steps, its equations.
 
-    because: why there are no steps.
+    integrators: by setting. because: why there are no steps.
     """
 
     case: ModelCase
@@ -44,6 +45,7 @@ class Modelled:
     rungs: Sequence[Rungs] = ()
     step_errors: Sequence[StepError] = ()
     certificates: Sequence[Certificate] = ()
+    integrators: Mapping[str, str] = field(default_factory=dict[str, str])
 
     @property
     def limit(self) -> Limit | None:
@@ -51,11 +53,13 @@ class Modelled:
         return None if self.steps is None else self.steps.limit
 
 
-def modelled(case: ModelCase, settings: Sequence[Setting] = ()) -> Modelled:
+def modelled(
+    case: ModelCase, others: Sequence[str] = (*OTHERS,), named: Sequence[Setting] = ()
+) -> Modelled:
     """Returns the rows of a model: its equations, and its steps in all settings.
 
-    settings: further ones, of the user's files. Raises CaseError if it does not compile, or lacks
-    a name of the case.
+    others: some of OTHERS; named: those of the user's files. Raises CaseError if it does not
+    compile, or lacks a name of the case.
     """
     ready = opened(case)
     own = ready.own
@@ -64,7 +68,7 @@ def modelled(case: ModelCase, settings: Sequence[Setting] = ()) -> Modelled:
     if not own.model.nv:
         return Modelled(case, str(own), "", None, parts, "nothing moves")
     try:
-        result = steps(case, ready, settings)
+        result = steps(case, ready, others, named)
     except NoLimit as error:
         because = f"no limit: {error}"
         rows = [_refused(case, q, bar, because) for q, bar in ready.bars.items()]
@@ -80,7 +84,17 @@ def modelled(case: ModelCase, settings: Sequence[Setting] = ()) -> Modelled:
         [row for one in each for row in _rungs(case, *one)],
         [row for one in each for row in _step_errors(case, *one)],
         certificates,
+        {each.setting.name: integrator_of(own, each.setting) for each in result.settings},
     )  # fmt: skip
+
+
+def lost(case: ModelCase, because: str) -> Modelled:
+    """Returns the row of a model that ended its process, or took too long."""
+    row = Comparison(
+        case.name, THEME, case.title, ENGINE, VERSION, OWN, NATIVE, "", "motion", "",
+        None, None, None, None, None, None, None, CRASHED, because,
+    )  # fmt: skip
+    return Modelled(case, "", "", None, (), because, [row])
 
 
 def _row(
@@ -128,7 +142,7 @@ def _comparison(
 
 def _refused(case: ModelCase, q: Quantity, bar: float, because: str) -> Comparison:
     return Comparison(
-        case.name, THEME, case.title, ENGINE, VERSION, "own", NATIVE, "", q.name, q.unit,
+        case.name, THEME, case.title, ENGINE, VERSION, OWN, NATIVE, "", q.name, q.unit,
         None, None, None, None, None, bar, None, REFUSED, because,
     )  # fmt: skip
 

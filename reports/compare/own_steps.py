@@ -5,7 +5,7 @@ said of the equations. These are compared in `own_equations`.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -39,11 +39,11 @@ KNOWN = 0.1  # of the tolerance: a limit that is not known so well judges nothin
 
 @dataclass(frozen=True)
 class Setting:
-    """Options of `mjOption`, by name, over a model's own, and the step [s]."""
+    """Options of `mjOption`, by name, over a model's own, and the step [s], by default its own."""
 
     name: str
     options: Mapping[str, Any]
-    step: float
+    step: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -89,15 +89,18 @@ class Steps:
         return self.limit.times[self.limit.times <= self.until]
 
 
-def settings_of(own: OwnModel, named: Sequence[Setting] = ()) -> list[Setting]:
+def settings_of(
+    own: OwnModel, others: Sequence[str], named: Sequence[Setting] = ()
+) -> list[Setting]:
     """Returns the model's own setting, the others that differ from it, and those that are named."""
     h, integrator = own.model.opt.timestep, own.model.opt.integrator
-    others = [
-        Setting(name, {"integrator": word}, h)
-        for name, word in OTHERS.items()
-        if INTEGRATORS[word] != integrator
+    different = [
+        Setting(name, {"integrator": OTHERS[name]}, h)
+        for name in others
+        if INTEGRATORS[OTHERS[name]] != integrator
     ]
-    return [Setting(OWN, {}, h), *others, *named]
+    named = [replace(setting, step=setting.step or h) for setting in named]
+    return [Setting(OWN, {}, h), *different, *named]
 
 
 def times_of(case: ModelCase, steps: Sequence[float]) -> Array:
@@ -122,10 +125,15 @@ def _whole(number: float) -> bool:
     return abs(number - round(number)) < 1e-9
 
 
-def steps(case: ModelCase, opened: Opened, named: Sequence[Setting] = ()) -> Steps:
+def steps(
+    case: ModelCase,
+    opened: Opened,
+    others: Sequence[str] = (*OTHERS,),
+    named: Sequence[Setting] = (),
+) -> Steps:
     """Runs a model in all settings. Raises NoLimit."""
     own, bars = opened.own, opened.bars
-    asked = settings_of(own, named)
+    asked = settings_of(own, others, named)
     times = times_of(case, [setting.step for setting in asked])
     exact = limit(own, times)
     until = _horizon(opened, exact)

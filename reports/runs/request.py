@@ -4,15 +4,17 @@ import warnings
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
+from ...cases.model_case import ModelCase
 from ...engines.engine import Engine
 from ..compare.trial.book import producers
 from ..compare.trial.work import too_long
 from .cache.key import Keys
 from .cache.store import Store, temporary_store
+from .models import Settings, settings_of
 from .processes.pool import local, workers
 from .selection import choose_book, choose_engines, sound
 from .task_results import Progress, Results, silent
@@ -26,7 +28,8 @@ class Request:
     that are left out. warnings: what else a person should know before it begins. jobs: processes of
     this machine, by default as many as cores. store: where results are kept as they come, and taken
     from if nothing that they depend on has changed; None: nowhere. executor: any of
-    `concurrent.futures`, a cluster's for instance, in place of the processes.
+    `concurrent.futures`, a cluster's for instance, in place of the processes. models: of the user's
+    own, in these settings.
     """
 
     cases: Sequence[Case]
@@ -38,6 +41,8 @@ class Request:
     progress: Progress = silent
     store: Store | None = None
     executor: Executor | None = None
+    models: Sequence[ModelCase] = ()
+    model_settings: Settings = field(default_factory=Settings)
 
     @contextmanager
     def results(self, most: int | None = None) -> Iterator[Results]:
@@ -59,24 +64,40 @@ def requested(
     mistakes: Sequence[Mistake] = (),
     named: bool = True,
     long: bool = False,
+    models: Sequence[ModelCase] = (),
 ) -> Request:
     """The cases that were found, in engines × settings by name (all for none).
 
     own: further engines, with a user's own options. mistakes: of files that were not found sound.
-    named: whether a person named the cases, and should know which of them nobody answers.
-    Raises CaseError where nothing is left to do.
+    named: whether a person named the cases, and should know which of them nobody answers. models:
+    of the user's own, which MuJoCo alone reads. Raises CaseError where nothing is left to do.
     """
     with warnings.catch_warnings(record=True) as broken:
         engines = [*choose_engines(names, settings, long=long), *own]
     mistakes = [*mistakes, *too_long(found, engines)]
     cases = sound(found, mistakes)
-    if not cases:
+    stepped = settings_of(engines) if models else None
+    if models and not stepped:
+        mistakes += [Mistake(model.file, 0, 0, "", NO_ENGINE) for model in models]
+    models = models if stepped else ()
+    names_of_cases = {case.name for case in cases}
+    mistakes += [
+        Mistake(model.file, 0, 0, "", f"a case beside it has the name {model.name!r}: rename one")
+        for model in models
+        if model.name in names_of_cases
+    ]
+    if not (cases or models):
         raise CaseError(mistakes)
     book = choose_book(names, settings)
-    silent = _silent(cases, engines, book=book)
+    silent = _silent(cases, engines, book=book) if cases else ""
     told = [f"warning: {warning.message}" for warning in broken]
     told += [silent] if silent and named else []
-    return Request(cases, engines, book, mistakes, told)
+    return Request(
+        cases, engines, book, mistakes, told, models=models, model_settings=stepped or Settings()
+    )
+
+
+NO_ENGINE = "is a model, which MuJoCo alone reads: name it among the engines, or none"
 
 
 def _silent(cases: Sequence[Case], engines: Sequence[Engine], *, book: bool) -> str:

@@ -141,13 +141,9 @@ def is_model(file: Path) -> bool:
 def _no_case(root: str) -> str:
     """Returns why XML with this root is no case, in words."""
     kind = MODELS.get(root, f"XML with the root <{root}>")
-    checks = (
-        "`textmech check` compares its equations, `textmech run` its steps; all else reads YAML"
-        if root in ("mujoco", "robot")
-        else "textmech reads cases as YAML"
-    )
-    written = "; `textmech show CASE --engine mujoco` writes MJCF" if root == "mujoco" else ""
-    return f"is {kind}; {checks}, where the scene is in words of its own (cases/README.md){written}"
+    where = "textmech reads cases as YAML, where the scene is in words of its own (cases/README.md)"
+    models = "; `check`, `run`, `advise`, `show` and `plot` read a model as it is"
+    return f"is {kind}; {where}{models if root in ('mujoco', 'robot') else ''}"
 
 
 def nameable(word: str) -> None:

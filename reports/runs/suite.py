@@ -14,10 +14,12 @@ from ..compare.judge.instants import of_reference
 from ..compare.judge.metric import round_to_floor
 from ..compare.judge.uncertified import failing, uncertified
 from ..compare.judge.unintended import unintended
+from ..compare.own_rows import Modelled
 from ..compare.trial.book import producers
 from ..tables.coverage import countable
 from ..tables.promised import answered
 from ..tables.row import FAILS, Cause, Certificate, Comparison, Instant, Rungs, StepError
+from .models import measured
 from .processes.pool import Died
 from .request import Request
 from .selection import sound, told_apart
@@ -47,6 +49,7 @@ class Report:
     causes: list[Cause] = field(default_factory=list)
     mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
     tried: list[Tried] = field(default_factory=list)
+    models: list[Modelled] = field(default_factory=list)
 
     @property
     def fails(self) -> bool:
@@ -77,7 +80,12 @@ def measure(request: Request, explain: Explain | None = None) -> Report:
     countable()
     report = Report(cases=list(cases))
     beside = [(c, e) for c in cases for e in producers(c, request.engines, book=request.book)]
-    with request.results(most=max(len(cases), RUNS * len(beside))) as results:
+    most = max(len(cases), RUNS * len(beside), len(request.models))
+    with request.results(most=most) as results:
+        if request.models:
+            _take_models(request, results, report)
+        if not cases:
+            return report
         keys, waiting = results.keys, partial(results.progress, "another run has these", 0, 1)
         with results.store.alone(keys.run(beside), waiting):
             pairs = [Pair(case, e, results.store, keys.solution(case)) for case, e in beside]
@@ -89,6 +97,17 @@ def measure(request: Request, explain: Explain | None = None) -> Report:
             if explain:
                 explain(paired, results, report)
     return report
+
+
+def _take_models(request: Request, results: Results, report: Report) -> None:
+    report.models, report.mistakes = measured(request.models, request.model_settings, results)
+    if not (report.models or request.cases):
+        raise CaseError(report.mistakes)
+    for model in report.models:
+        report.comparisons += model.comparisons
+        report.rungs += model.rungs
+        report.steps += model.step_errors
+        report.certificates += model.certificates
 
 
 def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:

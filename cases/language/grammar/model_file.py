@@ -44,6 +44,10 @@ class Start(Part):
     random_rates: Rates | None = None
 
 
+def _nowhere() -> Start:
+    return Start(joints={}, rates={})
+
+
 class Held(Table):
     """Values at times, each of which stays until the next."""
 
@@ -131,7 +135,7 @@ class ModelFile(Part):
 
     model: Annotated[str, Text(description="the MJCF or URDF, beside this file")]
     title: Annotated[str, Text()] = ""
-    initial: Start = Start()
+    initial: Start = Field(default_factory=_nowhere)
     control: Controls = Field({})
     contacts: Annotated[str, Word("word", ("on", "off"))] = "on"
     duration: Annotated[float, In("s", above=0)] = DURATION

@@ -3,7 +3,6 @@
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -11,10 +10,10 @@ import click
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say
 from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
-from .own_models import Model
 
 if TYPE_CHECKING:
     from ....cases.case import Case
+    from ....cases.model_case import ModelCase
     from ....engines.engine import Engine
     from ....reference.certificate.agreement import Check
     from ...compare.own_equations import Part
@@ -84,37 +83,64 @@ def _checked(
     files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
 ) -> list[Checked]:
     """Each of the files; solved in processes of their own, each with its share of the memory."""
-    from ...compare.trial.work import too_long
     from ...runs.processes.pool import Died, local, spread
-    from ...runs.selection import choose_cases, is_model
     from ..show.progress import progress
 
-    found: dict[int, Checked] = {}
-    tasks: dict[int, _Task | Model] = {}
-    for place, file in enumerate(files):
-        if is_model(Path(file)):
-            tasks[place] = Model(file, str(Path(file).resolve()))
-            continue
-        try:
-            cases = choose_cases([file], long=long)
-            if wrong := too_long(cases, engines):
-                raise CaseError(wrong)
-            tasks[place] = _Task(file, cases)
-        except CaseError as error:
-            found[place] = Checked(file, [], error.mistakes, [])
+    units = [unit for file in files for unit in _units(file, engines, long=long)]
+    tasks = [unit for unit in units if not isinstance(unit, Checked)]
+    by_task: dict[int, Checked] = {}
     if tasks:
-        places = list(tasks)
-        alone = len(files) == 1  # no file is done before it
+        alone = len(units) == 1  # no file is done before it
         with progress(quiet=alone) as told, local(min(jobs, len(tasks))) as working:
             told.watch(working)
-            for index, one in spread(_done, list(tasks.values()), working):
-                file = tasks[place := places[index]].name
-                if isinstance(one, Died):
-                    why = Mistake(file, 0, 0, "", f"could not be checked: {one.because}")
-                    one = Checked(file, [], [why], [])
-                found[place] = one
-                told("files", len(found), len(files), file, len(found) / len(files))
-    return [found[place] for place in range(len(files))]
+            for index, answer in spread(_done, tasks, working):
+                file = tasks[index].name
+                if isinstance(answer, Died):
+                    why = Mistake(file, 0, 0, "", f"could not be checked: {answer.because}")
+                    answer = Checked(file, [], [why], [])
+                by_task[index] = answer
+                told("files", len(by_task), len(tasks), file, len(by_task) / len(tasks))
+    answers = (by_task[index] for index in range(len(tasks)))
+    return [unit if isinstance(unit, Checked) else next(answers) for unit in units]
+
+
+def _units(
+    file: str, engines: "Sequence[Engine]", *, long: bool
+) -> "Iterator[Checked | _Task | _Model]":
+    """Yields what there is to do for a file, or its mistakes; for a folder each of its models."""
+    from ...compare.trial.work import too_long
+    from ...runs.models import choose_models
+    from ...runs.selection import choose_cases
+
+    models = choose_models([file], long=long)
+    if models.mistakes:
+        yield Checked(file, [], models.mistakes, [])
+    for model in models.cases:
+        yield _Model(model.file if len(models.cases) == 1 else model.name, model)
+    if not models.others:
+        return
+    try:
+        cases = choose_cases([file], long=long)
+        if wrong := too_long(cases, engines):
+            raise CaseError(wrong)
+        yield _Task(file, cases)
+    except CaseError as error:
+        yield Checked(file, [], error.mistakes, [])
+
+
+@dataclass(frozen=True)
+class _Model:
+    """A model, by its name."""
+
+    name: str
+    case: "ModelCase"
+
+    @property
+    def limit(self) -> float:
+        """How long it may take [s]."""
+        from ....cases.language.check.work import LIMIT
+
+        return LIMIT
 
 
 @dataclass(frozen=True)
@@ -125,19 +151,20 @@ class _Task:
     cases: "Sequence[Case]"
 
 
-def _done(task: _Task | Model) -> Checked:
-    return _compared(task) if isinstance(task, Model) else _solved(task)
+def _done(task: "_Task | _Model") -> Checked:
+    return _compared(task) if isinstance(task, _Model) else _solved(task)
 
 
-def _compared(task: Model) -> Checked:
+def _compared(task: _Model) -> Checked:
     """Compiles a model and compares its equations; what does not compile is a mistake."""
+    from ....engines.own_model.opened import opened
     from ...compare.own_equations import equations
 
     try:
-        model = task.compiled()
+        own = opened(task.case).own
     except CaseError as error:
         return Checked(task.name, [], error.mistakes, [])
-    return Checked(task.name, [], [], [], model=str(model), parts=equations(model))
+    return Checked(task.name, [], [], [], model=str(own), parts=equations(own))
 
 
 def _solved(task: _Task) -> Checked:

@@ -20,11 +20,17 @@ def named(
     A file with mistakes is left out: `mistakes` of the request tells them. Raises CaseError where
     nothing is left.
     """
+    from ...runs.models import choose_models
     from ...runs.request import requested
     from ...runs.selection import sound_cases
 
-    cases, mistakes = sound_cases(words, long=long)
-    request = requested(cases, names, settings, mistakes=mistakes, named=bool(words), long=long)
+    chosen = choose_models(words, long=long)
+    others = chosen.others if words else words
+    cases, mistakes = sound_cases(others, long=long) if others or not words else ([], [])
+    request = requested(
+        cases, names, settings, mistakes=[*chosen.mistakes, *mistakes], named=bool(words),
+        long=long, models=chosen.cases,
+    )  # fmt: skip
     if request.mistakes:
         tell(left_out(request.mistakes))
     for warning in request.warnings:

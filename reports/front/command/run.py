@@ -26,7 +26,6 @@ from .options import (
     overwrite,
     own_settings,
 )
-from .own_models import run_models
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -92,12 +91,6 @@ def run(
     Of MJCF or URDF files MuJoCo's steps are compared with the model's own continuous equations:
     textmech run robot.xml.
     """
-    if models := _models(cases):
-        other = names or settings or causes or out or keep or page or cluster
-        if len(models) < len(cases) or other:
-            what = "a model of your own is run alone: without cases and without other options"
-            raise click.UsageError(f"{models[0]}: {what} than --jobs and --json")
-        run_models(models, jobs, wants_json=wants_json)
     from ...runs import motion_files as kept
     from ...tables import write
     from ...tables.ownership import unasked
@@ -152,15 +145,6 @@ def run(
     if mistakes:
         tell(left_out(mistakes))  # again: by now it has scrolled away
     raise click.exceptions.Exit(code)
-
-
-def _models(words: tuple[str, ...]) -> list[str]:
-    """Returns those of the words that are models of the user's own."""
-    if not words:
-        return []
-    from ...runs.selection import is_model
-
-    return [word for word in words if is_model(Path(word))]
 
 
 @contextmanager

@@ -14,6 +14,7 @@ from ...tables.row import AGREES, FAILS, Certificate, Comparison
 from ...tables.short_numbers import milliseconds
 from ...tables.spoken import SETTINGS, spoken
 from .console import say
+from .model import model_lines
 from .summary import Cures, approximations, summary
 from .table import WIDTH, narrow
 
@@ -22,6 +23,10 @@ def show(
     report: Report, *, detailed: bool, written: Path | None, cures: Cures | None = None
 ) -> None:
     """The summary, warnings, what fails, the rows of named cases, and where it was written."""
+    models = {model.case.name for model in report.models}
+    for model in report.models if detailed else ():
+        for text in model_lines(model):
+            say(text)
     _summary(report, cures or {})
     for case, warning in report.warnings():
         for text in _wrapped(f"{case}: warning: {warning}", ""):
@@ -37,7 +42,8 @@ def show(
     for note in without_effect(report.comparisons):
         say(note)
     if detailed:
-        for text in (*certificate_lines(report.certificates), *rows(report.comparisons)):
+        told = [row for row in report.comparisons if row.case not in models]
+        for text in (*certificate_lines(report.certificates), *rows(told)):
             say(text)
         say()
     counts = Counter(row.verdict for row in report.comparisons)

@@ -17,6 +17,7 @@ from hashlib import sha256
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 from uuid import uuid4
 
 import numpy as np
@@ -33,6 +34,8 @@ ROOT = Path(__file__).parents[3]
 OURS, LIBRARIES = "textmech", ("numpy", "scipy")
 ROOMS = ("cases", "reference", "engines", "reports")
 REFERENCE = ("cases", "reference")
+UNTOLD = ("source", "given", "file", "path")
+"""Fields of a model's case that change no number: the model itself is in the digest."""
 JUDGING = (
     "engines/*.py", "reports/compare/trial", "reports/compare/judge", "reports/compare/events",
     "reports/tables/row.py", "reports/tables/pins.py", "reports/runs/tasks.py",
@@ -112,6 +115,13 @@ class Keys:
             return ""
         code = self._code((*SEARCHING, adapter))
         return _word("search", engine.version, repr(engine), self._case(case), code)
+
+    def model(self, task: Any, digest: str) -> str:
+        """The key of the rows of a user's model; digest: of all its numbers."""
+        case, code = task.case, self._code(ROOMS)
+        values = [getattr(case, f.name) for f in fields(case) if f.name not in UNTOLD]
+        told = repr(values), repr(task.settings)
+        return _word("model", self.salt, digest, *told, code, machine(), self.libraries or "")
 
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
         """The key of all pairs together: two runs with this key compute the same."""

@@ -1,0 +1,68 @@
+"""Says of a user's model what it is, how far off its steps are, and what of it is compared."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import inf
+
+from ....cases.mistake import plain
+from ...compare import own_equations
+from ...compare.own_rows import Modelled
+from ...compare.own_steps import Stepped, Steps
+from ...tables.row import REFUSED, Comparison
+from ...tables.short_numbers import factor, milliseconds
+from ...tables.spoken import spoken
+
+HEAD = f"  {'setting':13} {'integrator':13} {'step':>8}  {'worst':24} {'off by':>11} {'of allowed':>11}"
+
+
+def model_lines(model: Modelled) -> Iterator[str]:
+    """Returns the lines of a model."""
+    head = f"{model.case.name}: {model.model}" if model.model else model.case.name
+    yield plain(head)
+    if model.because:
+        yield plain(f"  {model.because}")
+    if model.steps is not None:
+        yield from map(plain, _steps(model, model.steps))
+    if model.parts:
+        yield ""
+        yield "  its equations of motion"
+        yield from own_equations.lines(model.parts)
+    yield ""
+
+
+def _steps(model: Modelled, steps: Steps) -> Iterator[str]:
+    end, limit = float(steps.limit.times[-1]), steps.limit
+    yield f"  {model.started}, over {end:.3g} s, at {len(limit.times)} samples"
+    yield f"  its limit for h → 0 by {limit.method}, known to {limit.error:.0e} rad or m"
+    if steps.until < end:
+        yield (
+            f"  judged until {steps.until:.3g} s: later a disturbance of 1e-9 exceeds the tolerance"
+        )
+    if steps.note:
+        yield f"  no finer steps: {steps.note}"
+    yield ""
+    yield f"{HEAD}  order  keeps all from"
+    rows: dict[str, list[Comparison]] = {}
+    for row in model.comparisons:
+        rows.setdefault(row.setting, []).append(row)
+    for stepped in steps.settings:
+        yield f"  {_line(model, stepped, rows[stepped.setting.name])}".rstrip()
+
+
+def _line(model: Modelled, stepped: Stepped, rows: Sequence[Comparison]) -> str:
+    setting = stepped.setting
+    worst = max(rows, key=lambda row: inf if row.error is None else row.ratio or 0.0)
+    orders: Mapping[str, float | None] = {
+        row.quantity: row.order for row in model.rungs if row.setting == setting.name
+    }
+    order = orders.get(worst.quantity)
+    name = f"{setting.name:13} {model.integrators[setting.name]:13}"
+    head = f"{name} {milliseconds(setting.step):>8}"
+    if worst.error is None:
+        return f"{head}  {spoken(worst.verdict)}"
+    size = f"{worst.error:.1e} {worst.unit}".rstrip()
+    ratio = factor(worst.ratio or 0.0)
+    keeps = "none tried" if stepped.keeps is None else milliseconds(stepped.keeps)
+    if worst.verdict == REFUSED:
+        keeps = worst.because
+    told = f"{head}  {worst.quantity:24} {size:>11} {ratio:>11}"
+    return f"{told}  {'' if order is None else f'{order:.1f}':>5}  {keeps}"

@@ -1,0 +1,192 @@
+"""Models of the user's own: from the words of a command line to their cases, and to their rows."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from ...cases.find import models as shipped_models
+from ...cases.language.check.work import LIMIT
+from ...cases.load_model import has_model, load_model
+from ...cases.mistake import CaseError, Mistake
+from ...cases.model_case import ModelCase, of_model
+from ...engines.engine import Engine
+from ...engines.own_model.model import image
+from ...engines.own_model.opened import opened
+from ..compare.own_rows import Modelled, lost, modelled
+from ..compare.own_steps import OTHERS, Setting
+from .processes.pool import Died
+from .selection import is_model, nameable
+from .task_results import Results
+
+ENGINE = "mujoco"
+SUFFIXES = (".xml", ".urdf")
+OPTIONS = (
+    "step", "integrator", "solver", "cone", "iterations", "ls_iterations", "noslip_iterations",
+    "tolerance", "ls_tolerance", "noslip_tolerance", "impratio",
+)  # fmt: skip
+"""Options of a file of settings that say nothing of a scene's elements."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The cases of models among some words, the other words, and the mistakes of the first."""
+
+    cases: Sequence[ModelCase]
+    others: Sequence[str]
+    mistakes: Sequence[Mistake]
+
+
+def choose_models(words: Sequence[str], *, long: bool = False) -> Chosen:
+    """Returns the cases of models: files of XML, case files with a `model`, folders, shipped names.
+
+    No words choose all shipped ones. A mistake costs its own file.
+    """
+    known = shipped_models()
+    others: list[str] = []
+    mistakes: list[Mistake] = []
+    cases: dict[str, ModelCase] = {}
+    for word in words or known:
+        try:
+            path = known.get(word.partition(".")[0], Path(word)) if word else Path(word)
+            if path.is_dir():
+                some = [*_folder(path)]
+                if not some:
+                    others.append(word)
+            elif path.is_file() and is_model(path):
+                nameable(word)
+                some = [of_model(str(path.resolve()), word, path.stem)]
+            elif path.is_file() and has_model(path):
+                nameable(word)
+                some = _variants(load_model(path, long=long), word, path)
+            else:
+                others.append(word)
+                continue
+        except CaseError as error:
+            mistakes += error.mistakes
+            continue
+        except OSError as error:
+            mistakes.append(Mistake(word, 0, 0, "", f"cannot be read: {error.strerror}"))
+            continue
+        for case in some:
+            name = case.name if case.name not in cases else case.file
+            cases[name] = replace(case, name=name)
+    return Chosen([*cases.values()], others, mistakes)
+
+
+def _variants(cases: list[ModelCase], word: str, path: Path) -> list[ModelCase]:
+    """Returns the one variant that a shipped name's word is of, or all."""
+    return [case for case in cases if case.name == word] or cases if path.stem != word else cases
+
+
+def _folder(folder: Path) -> Iterator[ModelCase]:
+    """Yields the models below a folder, called by their paths in it."""
+    for path in sorted(folder.rglob("*")):
+        if path.suffix.lower() in SUFFIXES and path.is_file() and is_model(path):
+            name = path.relative_to(folder).with_suffix("").as_posix()
+            yield of_model(str(path.resolve()), str(path), name)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """In which settings a model is stepped beside its own: some of OTHERS, and a user's files."""
+
+    others: Sequence[str] = (*OTHERS,)
+    own: Sequence[Setting] = ()
+
+
+def settings_of(engines: Sequence[Engine]) -> Settings | None:
+    """Returns the settings that engines ask for; None if MuJoCo is not among them.
+
+    Raises CaseError of options that are a scene's.
+    """
+    mine = [engine for engine in engines if engine.name == ENGINE]
+    if not mine:
+        return None
+    names = {engine.setting for engine in mine}
+    built_in = {"shipped", "recommended", "tuned"}
+    own = [_setting(engine) for engine in mine if engine.setting not in built_in]
+    every = built_in <= names
+    others = [name for name in OTHERS if every or name in names]
+    return Settings(others, own)
+
+
+def _setting(engine: Engine) -> Setting:
+    options: Mapping[str, Any] = getattr(engine, "options", {})
+    strange = [name for name in options if name not in OPTIONS]
+    if strange:
+        what = f"is an option of a scene; a model's own file says it. Known: {', '.join(OPTIONS)}"
+        where = f"{engine.setting}.{ENGINE}"
+        raise CaseError([Mistake("--settings", 0, 0, f"{where}.{n}", what) for n in strange])
+    rest = {name: value for name, value in options.items() if name != "step"}
+    return Setting(engine.setting, rest, options.get("step", 0.0))
+
+
+@dataclass(frozen=True)
+class Task:
+    """A model's case and its settings."""
+
+    case: ModelCase
+    settings: Settings
+
+    @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return self.case.name
+
+    @property
+    def limit(self) -> float:
+        """How long it may take [s]: of a thousand joints one second may take an hour."""
+        return LIMIT
+
+
+def digest(task: Task) -> str | CaseError:
+    """Returns a word of all numbers of the compiled model; or why there is none."""
+    try:
+        return sha256(image(opened(task.case).own.model)).hexdigest()
+    except CaseError as error:
+        return error
+
+
+def done(task: Task) -> Modelled | CaseError:
+    """Returns the model's rows, or its mistakes."""
+    try:
+        return modelled(task.case, task.settings.others, task.settings.own)
+    except CaseError as error:
+        return error
+
+
+def measured(
+    cases: Sequence[ModelCase], settings: Settings, results: Results
+) -> tuple[list[Modelled], list[Mistake]]:
+    """Returns the rows of all models, each in a process of its own, and the mistakes of the rest.
+
+    A model that ends its process, or takes too long, has rows that say so.
+    """
+    tasks = {str(index): Task(case, settings) for index, case in enumerate(cases)}
+    words = results.anew("models compiled", digest, tasks)
+    mistakes: list[Mistake] = []
+    keys: dict[str, str] = {}
+    answers: dict[str, Any] = {}
+    for index, word in words.items():
+        if isinstance(word, CaseError):
+            mistakes += word.mistakes
+        elif isinstance(word, Died):
+            answers[index] = word
+        else:
+            keys[index] = results.keys.model(tasks[index], word)
+    by_key = results.of("models", done, {keys[index]: tasks[index] for index in keys})
+    answers |= {index: by_key[key] for index, key in keys.items()}
+    rows: list[Modelled] = []
+    for index in sorted(answers, key=int):
+        answer, case = answers[index], tasks[index].case
+        if isinstance(answer, CaseError):
+            mistakes += answer.mistakes
+        else:
+            rows.append(
+                lost(case, answer.because)
+                if isinstance(answer, Died)
+                else replace(answer, case=case)
+            )
+    return rows, mistakes
