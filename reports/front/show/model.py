@@ -11,7 +11,9 @@ from ...tables.row import REFUSED, Comparison
 from ...tables.short_numbers import factor, milliseconds
 from ...tables.spoken import spoken
 
-HEAD = f"  {'setting':13} {'integrator':13} {'step':>8}  {'worst':24} {'off by':>11} {'of allowed':>11}"
+HEAD = (
+    f"  {'setting':13} {'integrator':13} {'step':>8}  {'worst':24}{'off by':>12} {'of allowed':>11}"
+)
 
 
 def model_lines(model: Modelled) -> Iterator[str]:
