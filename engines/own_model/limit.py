@@ -4,8 +4,10 @@ It is the engine's *limit* for h → 0, and no reference: it proves nothing abou
 """
 
 import copy
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Literal
 
 import mujoco
@@ -13,6 +15,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ...cases.trajectory import Array
+from .control import Controls
 from .model import BROKEN, OwnModel, apart
 
 TIGHT, LOOSE = 1e-10, 1e-8  # relative: what the two answers differ by is the limit's own error
@@ -20,6 +23,8 @@ FLOOR = 1e-3  # of a relative tolerance: the absolute one, of rad and m
 MOST = 60_000  # accelerations of one answer: an explicit method crawls where a servo is stiff
 ITERATIONS = 200  # of Newton's solver at most
 EXACT = 1e-16  # its tolerance: what 1e-8 leaves is noise that stalls integrators; 0 never stops
+FIRST = 1e-6  # s: the first step of each piece at most
+SLIGHT = 1e-6  # of a step: what begins with a step in the clock's rounding begins with it
 FINE = 64  # parts of its own step, where no integrator comes through
 Method = Literal["DOP853", "Radau"]
 METHODS: tuple[Method, ...] = ("DOP853", "Radau")  # explicit, and for stiff servos
@@ -38,16 +43,16 @@ class NoLimit(Exception):
 
 @dataclass(frozen=True)
 class Limit:
-    """The motion for h → 0: q (N, m) and y (N, m + n + a) = (qpos, qvel, act) at times (N,) [s].
+    """The motion for h → 0: y = (qpos, qvel, act) (N, k) at the times (N,) [s], q (N, m) of them.
 
     error: by how much two answers differ, the largest of all coordinates; method: what integrates.
     """
 
     times: Array
+    y: Array
     q: Array
     error: float
     method: str
-    y: Array
 
 
 def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Limit:
@@ -59,26 +64,25 @@ def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Li
     if reasons := with_step(own.model):
         raise NoLimit("; ".join(reasons))
     begun = start or own.start()
-    equations = Equations(own.model, begun)
+    equations = Equations(own, begun)
     for method in METHODS:
         try:
             tight, loose = (equations.followed(times, method, rtol) for rtol in (TIGHT, LOOSE))
         except _TooMany:
             continue
-        return _limit(own, times, tight, loose, method)
+        return _of(own.model, times, tight, loose, method)
     h = own.model.opt.timestep
     if apart_by_pairs(own.model):
         raise NoLimit(f"{MOST} accelerations do not suffice, and {PAIRS}")
-    fine, coarse = (ran(own, times, None, h / n, begun) for n in (FINE, FINE // 2))
+    fine, coarse = (stepped_states(own, times, {}, h / n, begun) for n in (FINE, FINE // 2))
     if fine is None or coarse is None:
         raise NoLimit(f"{MOST} accelerations do not suffice, and small steps diverge")
-    return _limit(own, times, fine, coarse, f"its own steps of {h / FINE:.2g} s")
+    return _of(own.model, times, fine, coarse, f"its own steps of {h / FINE:.2g} s")
 
 
-def _limit(own: OwnModel, times: Array, y: Array, other: Array, method: str) -> Limit:
-    nq = own.model.nq
-    error = float(np.abs(apart(own.model, y[:, :nq], other[:, :nq])).max(initial=0.0))
-    return Limit(times, y[:, :nq], error, method, y)
+def _of(model: mujoco.MjModel, times: Array, y: Array, other: Array, method: str) -> Limit:
+    q, others = y[:, : model.nq], other[:, : model.nq]
+    return Limit(times, y, q, float(np.abs(apart(model, q, others)).max(initial=0.0)), method)
 
 
 def with_step(m: mujoco.MjModel) -> list[str]:
@@ -98,10 +102,10 @@ class _TooMany(Exception):
 
 
 class Equations:
-    """ẏ = f(y) of y = (qpos, qvel, act), with the controls of a start held."""
+    """ẏ = f(t, y) of y = (qpos, qvel, act), from a start on and with its controls in time."""
 
-    def __init__(self, model: mujoco.MjModel, start: mujoco.MjData) -> None:
-        self.model = copy.copy(model)
+    def __init__(self, own: OwnModel, start: mujoco.MjData) -> None:
+        self.model, self.controls = copy.copy(own.model), controls_of(own, start)
         self.model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
         self.model.opt.tolerance, self.model.opt.iterations = EXACT, ITERATIONS
         self.data = begun_as(self.model, start)
@@ -115,21 +119,34 @@ class Equations:
             raise _TooMany
         m, d = self.model, self.data
         d.time = t
+        if self.controls.laws:
+            d.ctrl[:] = self.controls.at(min(t, self.before))
         self._set(y)
         mujoco.mj_forward(m, d)
         return np.concatenate([self._q_dot(y), d.qacc, d.act_dot])
 
     def followed(self, times: Array, method: Method, rtol: float) -> Array:
-        """Returns y (N, m + n + a) at the times, to a relative tolerance. Raises _TooMany."""
+        """Returns y (N, k) at the times, to a relative tolerance. Raises _TooMany.
+
+        Each corner of the controls ends a piece, which sees of a jump what stood before.
+        """
         self.asked = 0
-        span = float(times[0]), float(times[-1])
-        answer = solve_ivp(
-            self.rate, span, self.y, method, times, rtol=rtol, atol=rtol * FLOOR,
-            first_step=1e-6, max_step=float(times[1] - times[0]),
-        )  # fmt: skip
-        if not answer.success:
-            raise _TooMany
-        return answer.y.T
+        first, last = float(times[0]), float(times[-1])
+        ends = [t for t in self.controls.corners if first < t < last] + [last]
+        y, rows = self.y, [self.y[None]]
+        for begins, ends_at in pairwise([first, *ends]):
+            self.before = math.nextafter(ends_at, begins)
+            inside = times[(times > begins) & (times <= ends_at)]
+            answer = solve_ivp(
+                self.rate, (begins, ends_at), y, method, np.union1d(inside, ends_at),
+                rtol=rtol, atol=rtol * FLOOR, max_step=float(times[1] - times[0]),
+                first_step=min(FIRST, (ends_at - begins) / 2),
+            )  # fmt: skip
+            if not answer.success:
+                raise _TooMany
+            rows.append(answer.y.T[: len(inside)])
+            y = answer.y[:, -1]
+        return np.concatenate(rows)
 
     def _set(self, y: Array) -> None:
         nq, nv = self.model.nq, self.model.nv
@@ -169,34 +186,48 @@ def stepped(
     h: float,
     start: mujoco.MjData | None = None,
 ) -> Array | None:
-    """Returns q (N, m) of MuJoCo's own steps h [s] at the times; None where it diverges."""
-    y = ran(own, times, {} if integrator is None else {"integrator": integrator}, h, start)
+    """Returns q (N, m) as `stepped_states` has it, of an integrator by its name."""
+    options = {} if integrator is None else {"integrator": integrator}
+    y = stepped_states(own, times, options, h, start)
     return None if y is None else y[:, : own.model.nq]
 
 
-def ran(
+def stepped_states(
     own: OwnModel,
     times: Array,
-    options: Mapping[str, Any] | None,
+    options: Mapping[str, Any],
     h: float,
     start: mujoco.MjData | None = None,
 ) -> Array | None:
-    """Returns y (N, m + n + a) of MuJoCo's own steps h [s] at the times; None where it diverges.
+    """Returns y (N, k) of MuJoCo's own steps h [s] at the times; None where it diverges.
 
-    options: of `mjOption`, by name, over the model's own. times: multiples of h.
+    options: of `mjOption`, by name, over the model's own. times: multiples of h. A control is what it is at
+    the beginning of a step, as in a user's loop.
     """
     model = copy.copy(own.model) if h >= own.model.opt.timestep else _with_law_of(own.model)
-    for name, value in (options or {}).items():
+    for name, value in options.items():
         setattr(model.opt, name, WORDS.get(name, {}).get(value, value))
     model.opt.timestep = h
-    data, states = begun_as(model, start or own.start()), list[Array]()
-    for steps in np.diff(np.rint(times / h).astype(int), prepend=0):
-        if steps:
-            mujoco.mj_step(model, data, int(steps))
+    begun = start or own.start()
+    data, controls = begun_as(model, begun), controls_of(own, begun)
+    done, states = 0, list[Array]()
+    for step in np.rint(times / h).astype(int):
+        if controls.laws:
+            for k in range(done, step):
+                data.ctrl[:] = controls.at((k + SLIGHT) * h)
+                mujoco.mj_step(model, data)
+        elif step > done:
+            mujoco.mj_step(model, data, int(step - done))
+        done = step
         if any(int(data.warning[kind].number) for kind in BROKEN):
             return None
         states.append(np.concatenate([data.qpos, data.qvel, data.act]))
     return np.array(states)
+
+
+def controls_of(own: OwnModel, start: mujoco.MjData) -> Controls:
+    """Returns a model's controls in time; those without a law stay as they start."""
+    return Controls(np.array(start.ctrl), own.laws)
 
 
 def begun_as(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:

@@ -18,7 +18,7 @@ from ...engines.own_model.limit import (
     Limit,
     apart_by_pairs,
     limit,
-    ran,
+    stepped_states,
 )
 from ...engines.own_model.model import OwnModel, moved
 from ...engines.own_model.opened import Opened
@@ -163,7 +163,7 @@ def _stepped(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> St
     wanted = Motion(own, exact.times, exact.y)
     for k in sorted(_rungs(own)):  # the finest first: above one that diverges none is usable
         h = setting.step * k
-        samples = ran(own, exact.times, setting.options, h)
+        samples = stepped_states(own, exact.times, setting.options, h)
         if samples is None:
             break
         y = samples if k == 1.0 else y
