@@ -17,6 +17,7 @@ from scipy.integrate import solve_ivp
 from ...cases.trajectory import Array
 from .control import Controls
 from .model import BROKEN, OwnModel, apart
+from .release import column, enabled
 
 TIGHT, LOOSE = 1e-10, 1e-8  # relative: what the two answers differ by is the limit's own error
 FLOOR = 1e-3  # of a relative tolerance: the absolute one, of rad and m
@@ -89,10 +90,10 @@ def with_step(m: mujoco.MjModel) -> list[str]:
     """Returns what of a model's law hangs on its step, in words."""
     has = {
         "discrete": mujoco.mjtIntegrator(m.opt.integrator).name == "mjINT_DISCRETE",
-        "delay": np.any(m.actuator_delay) or m.nhistory,
+        "delay": column(m, "actuator_delay").any() or column(m, "nhistory"),
         "early": np.any(m.actuator_actearly),
-        "sleep": m.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP,
-        "state": m.nplugin or m.nplastic,
+        "sleep": enabled(m, "mjENBL_SLEEP"),
+        "state": m.nplugin or column(m, "nplastic"),
     }
     return [words for name, words in H_IN_THE_LAW.items() if has[name]]
 

@@ -14,6 +14,7 @@ from ...cases.trajectory import Array
 from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
 from .control import Controls, Law
 from .numbers import named, numbers
+from .release import actuators, column, mass_matrix
 
 VERSION = mujoco.__version__
 LINE = re.compile(r"[Ll]ine(?: number)?[ =](\d+)")
@@ -93,16 +94,16 @@ class OwnModel:
         mujoco.mj_fwdPosition(m, data)
         mujoco.mj_fwdVelocity(m, data)
         mujoco.mj_fwdActuation(m, data)
-        M = np.zeros((m.nv, m.nv))
-        mujoco.mj_fullM(m, data, M)
         own = {BIAS: data.qfrc_bias, PASSIVE: data.qfrc_passive, DRIVEN: data.qfrc_actuator}
-        return {MASS: M} | {part: np.array(values) for part, values in own.items()}
+        return {MASS: mass_matrix(m, data)} | {
+            part: np.array(values) for part, values in own.items()
+        }
 
     def __str__(self) -> str:
         m = self.model
         integrator = mujoco.mjtIntegrator(m.opt.integrator).name.removeprefix("mjINT_")
         counted = {"body": m.nbody - 1, "joint": m.njnt, "degree of freedom": m.nv}
-        counted |= {"actuator": m.nactuator, "equality": m.neq}
+        counted |= {"actuator": actuators(m), "equality": m.neq}
         words = ", ".join(_count(word, number) for word, number in counted.items() if number)
         step = f"{m.opt.timestep * 1e3:.4g} ms, {integrator.lower()}"
         return (
@@ -125,7 +126,8 @@ def drawn_start(
     mujoco.mj_forward(m, data)
     for i in np.flatnonzero(m.actuator_biasprm[:, 1] == -m.actuator_gainprm[:, 0]):
         if m.actuator_gainprm[i, 0]:
-            data.ctrl[m.actuator_ctrladr[i]] = data.actuator_length[m.actuator_outadr[i]]
+            control, length = (column(m, f"actuator_{of}adr")[i] for of in ("ctrl", "out"))
+            data.ctrl[control] = data.actuator_length[length]
     if not still:
         data.qvel[:] = drawn_rates(m)
     return data

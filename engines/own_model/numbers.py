@@ -20,6 +20,7 @@ from ...cases.tree import (
     Tree,
     TreeJoint,
 )
+from .release import actuators, column
 
 KINDS: dict[int, Kind] = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
 DISABLED = mujoco.mjtDisableBit
@@ -48,7 +49,7 @@ def numbers(model: mujoco.MjModel, start: mujoco.MjData) -> Tree:
         np.array(m.dof_damping) if damps else np.zeros(m.nv),
         [*_springs(m, joints)] if springs else (),
         [_line(m, i, springs=springs, damps=damps) for i in fixed_tendons(m)],
-        [_motor(m, i) for i in range(m.nactuator) if acts and not _strange(m, i)],
+        [_motor(m, i) for i in range(actuators(m)) if acts and not _strange(m, i)],
         _clamped(m),
         np.array([bool(m.jnt_actgravcomp[j]) for j in m.dof_jntid], dtype=bool),
         _unread(m),
@@ -139,7 +140,7 @@ def _strange(m: mujoco.MjModel, i: int) -> str:
     target, transmission = m.actuator_trnid[i, 0], mujoco.mjtTrn(m.actuator_trntype[i])
     if m.actuator_plugin[i] >= 0:
         return "a plugin"
-    if m.actuator_ctrlnum[i] != 1:
+    if column(m, "actuator_ctrlnum")[i] != 1:
         return "another number of controls than one"
     if mujoco.mjtDyn(m.actuator_dyntype[i]) != mujoco.mjtDyn.mjDYN_NONE:
         return "a state of its own"
@@ -155,7 +156,7 @@ def _strange(m: mujoco.MjModel, i: int) -> str:
 
 
 def _motor(m: mujoco.MjModel, i: int) -> Motor:
-    target, control = m.actuator_trnid[i, 0], m.actuator_ctrladr[i]
+    target, control = m.actuator_trnid[i, 0], column(m, "actuator_ctrladr")[i]
     if mujoco.mjtTrn(m.actuator_trntype[i]) == mujoco.mjtTrn.mjTRN_TENDON:
         moments = _sum(m, target)
     else:
@@ -168,7 +169,7 @@ def _motor(m: mujoco.MjModel, i: int) -> Motor:
     gain = np.array(m.actuator_gainprm[i, :3])
     return Motor(
         named(m, OBJECT.mjOBJ_ACTUATOR, i),
-        np.zeros(m.nv) if off else moments * m.actuator_gear[m.actuator_outadr[i], 0],
+        np.zeros(m.nv) if off else moments * m.actuator_gear[column(m, "actuator_outadr")[i], 0],
         _places(m),
         int(control),
         gain if affine else gain * [1.0, 0.0, 0.0],
@@ -199,7 +200,7 @@ def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
         word = {joint: "joint", tendon: "tendon", actuator: "actuator"}[kind]
         unread[part] += [f"{word} {named(m, kind, i)}: {what}" for i in numbers]
 
-    for i in range(m.nactuator):
+    for i in range(actuators(m)):
         if what := _strange(m, i):
             add(DRIVEN, actuator, [i], what)
     spatial = [i for i in range(m.ntendon) if i not in fixed_tendons(m)]
@@ -209,17 +210,18 @@ def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
     add(MASS, tendon, heavy, "an armature in space")
     add(BIAS, tendon, heavy, "an armature in space")
     add(DRIVEN, tendon, np.flatnonzero(m.tendon_actfrclimited), "a bound of all its actuators")
-    for kind, stiff in ((joint, m.jnt_stiffnesspoly), (tendon, m.tendon_stiffnesspoly)):
-        add(PASSIVE, kind, np.flatnonzero(stiff.any(axis=1)), "a stiffness that is no constant")
-    soft = {int(m.dof_jntid[i]) for i in np.flatnonzero(m.dof_dampingpoly.any(axis=1))}
+    for kind, stiff in ((joint, "jnt_stiffnesspoly"), (tendon, "tendon_stiffnesspoly")):
+        bent = np.flatnonzero(column(m, stiff).any(axis=1))
+        add(PASSIVE, kind, bent, "a stiffness that is no constant")
+    soft = {int(m.dof_jntid[i]) for i in np.flatnonzero(column(m, "dof_dampingpoly").any(axis=1))}
     add(PASSIVE, joint, sorted(soft), "a damping that is no constant")
-    curved = np.flatnonzero(m.tendon_dampingpoly.any(axis=1))
+    curved = np.flatnonzero(column(m, "tendon_dampingpoly").any(axis=1))
     add(PASSIVE, tendon, curved, "a damping that is no constant")
-    for kind, bends in ((joint, m.jnt_plasticadr), (tendon, m.tendon_plasticadr)):
-        add(PASSIVE, kind, np.flatnonzero(bends >= 0), "a spring that yields")
-    damped = (m.actuator_damping != 0) | m.actuator_dampingpoly.any(axis=1)
+    for kind, bends in ((joint, "jnt_plasticadr"), (tendon, "tendon_plasticadr")):
+        add(PASSIVE, kind, np.flatnonzero(column(m, bends) >= 0), "a spring that yields")
+    damped = (column(m, "actuator_damping") != 0) | column(m, "actuator_dampingpoly").any(axis=1)
     add(PASSIVE, actuator, np.flatnonzero(damped), "a damping of its own")
-    add(MASS, actuator, np.flatnonzero(m.actuator_armature), "an armature of its own")
+    add(MASS, actuator, np.flatnonzero(column(m, "actuator_armature")), "an armature of its own")
     if m.opt.density or m.opt.viscosity:
         unread[PASSIVE].append("option: a fluid (density, viscosity)")
     if m.nflex:

@@ -11,6 +11,7 @@ from ...cases.mistake import CaseError, Mistake, Path, nearest
 from ...cases.model_case import JOINTS, Law, ModelCase, ModelStart
 from .model import OwnModel, compiled, compiled_text, drawn_rates, drawn_start
 from .quantities import Quantity, joint_quantities, quantities
+from .release import actuators, column
 
 OBJECT = mujoco.mjtObj
 WIDTHS = {0: (7, 6), 1: (4, 3), 2: (1, 1), 3: (1, 1)}
@@ -37,7 +38,7 @@ def opened(case: ModelCase) -> Opened:
     for name, law in case.control.items():
         number = _number(model, OBJECT.mjOBJ_ACTUATOR, name, case, ("control", name), mistakes)
         if number is not None:
-            laws[int(model.actuator_ctrladr[number])] = law
+            laws[int(column(model, "actuator_ctrladr")[number])] = law
     begun = _start(own, case, mistakes)
     bars = dict(_bars(model, case, mistakes))
     if mistakes:
@@ -84,7 +85,7 @@ def _number(
 
 
 def _names(model: mujoco.MjModel, kind: mujoco.mjtObj) -> list[str]:
-    counts = {OBJECT.mjOBJ_ACTUATOR: model.nactuator, OBJECT.mjOBJ_JOINT: model.njnt}
+    counts = {OBJECT.mjOBJ_ACTUATOR: actuators(model), OBJECT.mjOBJ_JOINT: model.njnt}
     names = (mujoco.mj_id2name(model, kind, i) for i in range(counts.get(kind, model.nkey)))
     return [name for name in names if name]
 

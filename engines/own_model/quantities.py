@@ -11,6 +11,7 @@ import numpy as np
 from ...cases.trajectory import Array
 from .model import OwnModel, apart
 from .numbers import named
+from .release import actuators, column
 
 Of = Literal["joint", "place", "turn", "sensor", "force", "energy"]
 OBJECT = mujoco.mjtObj
@@ -38,9 +39,9 @@ def quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
         name = called(model, OBJECT.mjOBJ_SENSOR, i)
         first, wide = int(model.sensor_adr[i]), int(model.sensor_dim[i])
         yield Quantity(f"{name}.value", "", "sensor", first, wide)
-    for i in range(model.nactuator):
-        name, first = called(model, OBJECT.mjOBJ_ACTUATOR, i), int(model.actuator_outadr[i])
-        yield Quantity(f"{name}.force", "", "force", first)
+    for i in range(actuators(model)):
+        name = called(model, OBJECT.mjOBJ_ACTUATOR, i)
+        yield Quantity(f"{name}.force", "", "force", int(column(model, "actuator_outadr")[i]))
     yield Quantity("energy", "J", "energy")
 
 
