@@ -202,8 +202,8 @@ def stepped_states(
 ) -> Array | None:
     """Returns y (N, k) of MuJoCo's own steps h [s] at the times; None where it diverges.
 
-    options: of `mjOption`, by name, over the model's own. times: multiples of h. A control is what it is at
-    the beginning of a step, as in a user's loop.
+    options: of `mjOption`, by name, over the model's own. times: multiples of h. A control is what
+    it is at the beginning of a step, as in a user's loop.
     """
     model = copy.copy(own.model) if h >= own.model.opt.timestep else _with_law_of(own.model)
     for name, value in options.items():

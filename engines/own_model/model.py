@@ -171,15 +171,16 @@ def _count(word: str, number: int) -> str:
 
 def compiled(file: str) -> OwnModel:
     """Compiles an MJCF or URDF file. Raises CaseError with the compiler's words and line."""
-    return _compiled(file, lambda: mujoco.MjModel.from_xml_path(file))
+    return compiled_by(file, lambda: mujoco.MjModel.from_xml_path(file))
 
 
 def compiled_text(text: str, name: str = "MJCF") -> OwnModel:
     """Compiles the text of a model; name: what it is called. Raises CaseError as `compiled`."""
-    return _compiled(name, lambda: mujoco.MjModel.from_xml_string(text))
+    return compiled_by(name, lambda: mujoco.MjModel.from_xml_string(text))
 
 
-def _compiled(file: str, compile_: Callable[[], mujoco.MjModel]) -> OwnModel:
+def compiled_by(file: str, compile_: Callable[[], mujoco.MjModel]) -> OwnModel:
+    """Returns the model that a function compiles. Raises CaseError as `compiled`."""
     try:
         own = OwnModel(file, compile_())
     except (ValueError, OSError, mujoco.FatalError) as error:

@@ -54,6 +54,25 @@ def joint_quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
             yield Quantity(f"{name}.{field}", unit, "joint", first + shift, wide)
 
 
+def coordinates(model: mujoco.MjModel) -> list[tuple[str, str]]:
+    """Returns the name and the unit of each coordinate, in their order."""
+    columns: list[tuple[str, str]] = []
+    for i in range(model.njnt):
+        name = called(model, OBJECT.mjOBJ_JOINT, i)
+        columns += [
+            (f"{name}.{field}", unit) for field, unit in COORDINATES[int(model.jnt_type[i])]
+        ]
+    return columns
+
+
+TURN = [(field, "") for field in ("qw", "qx", "qy", "qz")]
+COORDINATES = {
+    0: [("x", "m"), ("y", "m"), ("z", "m"), *TURN],
+    1: TURN,
+    2: [("shift", "m")],
+    3: [("angle", "rad")],
+}
+"""By a joint's type its coordinates."""
 FIELDS = {
     0: (("place", "m", 0, 3), ("turn", "rad", 3, 3)),
     1: (("turn", "rad", 0, 3),),

@@ -7,7 +7,7 @@ from ...cases.model_case import ModelCase
 from ...engines.own_model.limit import Limit, NoLimit
 from ...engines.own_model.model import VERSION, OwnModel
 from ...engines.own_model.opened import opened
-from ...engines.own_model.quantities import Quantity
+from ...engines.own_model.quantities import Quantity, coordinates
 from ..tables.row import (
     AGREES,
     BEYOND,
@@ -32,7 +32,8 @@ DIGITS = 1e-3  # of an error: below it are digits that another processor has oth
 class Modelled:
     """A model's rows, and what is said of it: what it is, its start, its steps, its equations.
 
-    integrators: by setting. because: why there are no steps.
+    integrators: by setting. coordinates: name and unit of each column of q. because: why there are
+    no steps.
     """
 
     case: ModelCase
@@ -46,6 +47,7 @@ class Modelled:
     step_errors: Sequence[StepError] = ()
     certificates: Sequence[Certificate] = ()
     integrators: Mapping[str, str] = field(default_factory=dict[str, str])
+    coordinates: Sequence[tuple[str, str]] = ()
 
     @property
     def limit(self) -> Limit | None:
@@ -85,6 +87,7 @@ def modelled(
         [row for one in each for row in _step_errors(case, *one)],
         certificates,
         {each.setting.name: integrator_of(own, each.setting) for each in result.settings},
+        coordinates(own.model),
     )  # fmt: skip
 
 

@@ -189,12 +189,12 @@ def _error(
     bar = bars[quantity]
     largest = {h: float(np.max(sizes(errors))) for h, errors in ladder.items()}
     clear = {h: errors for h, errors in ladder.items() if largest[h] > floor}
+    sure = instants(largest, bar - exact.error)  # of a rough limit less is known to be within
     if not clear:
-        return Error(over_time, instants(largest, bar))
+        return Error(over_time, sure)
     zero = np.zeros_like(next(iter(clear.values())))
     found = study(clear, zero, exponents=(), allow=bar, floor=floor)
-    usable = instants(largest, bar).usable_step
-    return Error(over_time, Convergence(found.verdict, largest, usable, found.order,
+    return Error(over_time, Convergence(found.verdict, largest, sure.usable_step, found.order,
                                         found.order_low, found.order_high))  # fmt: skip
 
 

@@ -9,7 +9,9 @@ from typing import Any
 from ... import engines as installed
 from ...cases.case import Case
 from ...cases.load import load
+from ...cases.load_model import load_model
 from ...cases.mistake import CaseError
+from ...cases.model_case import ModelCase
 from ...engines.engine import Engine, Plan, Start
 from ...engines.probe import apart
 from ..compare.trial.book import producers
@@ -20,6 +22,8 @@ from ..compare.trial.trial import judged_names
 from ..compare.trial.work import too_long
 from ..runs.cache.key import Keys
 from ..runs.cache.store import Store
+from ..runs.models import ENGINE as MODEL_ENGINE
+from ..runs.models import Settings, own_engines, row_names, settings_of
 from ..runs.selection import ENGINES, HANDWRITTEN, choose_book, choose_engines, nameable
 from ..tables.coverage import countable
 from .show.progress import aloud
@@ -97,6 +101,35 @@ def collected(
         rows = [[*_keys(case, producers(case, engines, book=book), asked)] for case in cases]
         asked.keep()
         return list(zip(cases, rows, strict=True))
+
+
+def collected_models(
+    path: Path, names: Sequence[str], settings: Sequence[str], wanted: Sequence[str], *, long: bool
+) -> list[tuple[ModelCase, list[Key]]]:
+    """Returns the wanted cases of a file with a model, each with its rows; none without MuJoCo.
+
+    Each is compiled in a process of its own. Raises CaseError.
+    """
+    nameable(str(path))
+    cases = [
+        case
+        for case in load_model(path, long=long)
+        if not wanted or {case.name, path.stem} & {*wanted}
+    ]
+    if names and not any(name.partition(".")[0] == MODEL_ENGINE for name in names):
+        return []
+    beside = settings_of([*choose_engines([], []), *own_engines(settings)]) or Settings()
+    rows: list[list[Key]] = []
+    for case in cases:
+        answer, why = apart(row_names, case, beside, most=limit())
+        if isinstance(answer, CaseError):
+            raise answer
+        if why:
+            raise CaseError([case.mistake(("model",), f"cannot be compiled: {why}")])
+        rows.append(
+            [(case.name, MODEL_ENGINE, way, "native", quantity) for way, quantity in answer]
+        )
+    return list(zip(cases, rows, strict=True))
 
 
 def _keys(case: Case, engines: Sequence[Engine], earlier: Earlier) -> Iterator[Key]:

@@ -18,6 +18,7 @@ import numpy as np
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake, Source, nearest
+from ...cases.model_case import ModelCase, of_model
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,7 +30,7 @@ OWN = "own"  # how the column of a user's own options is called
 SMALLEST = 1e-300
 MOST = 3  # plots that a notebook shows unasked
 BY_DEFAULT = ("jobs", "tolerance")  # numbers that may be None
-Word = str | Path | Case
+Word = str | Path | Case | ModelCase
 
 
 @dataclass(frozen=True)
@@ -136,17 +137,43 @@ class Comparisons:
         return table(self.summary) + (self.plot().html if len(self.motions) == 1 else "")
 
 
-def load(word: Word | Sequence[Word] = ()) -> list[Case]:
+def load(word: Word | Sequence[Word] = ()) -> list[Any]:
     """The cases of a name, a variant (`rolling_wheel.pushed`) or a YAML file; all shipped for none.
 
+    A model is a case as well: an MJCF or URDF file, the text of one, an `MjSpec` or an `MjModel`.
     Raises CaseError with all mistakes of all files, and where two cases have one name.
     """
+    from ..runs.models import choose_models
     from ..runs.selection import choose_cases, told_apart
 
-    words = _listed("cases", word, (str, Path, Case))
-    given = [case for case in words if isinstance(case, Case)]
-    named = [str(name) for name in words if not isinstance(name, Case)]
-    return told_apart([*given, *(choose_cases(named) if named or not words else [])])
+    words = _listed("cases", _given(word), (str, Path, Case, ModelCase))
+    given = [case for case in words if isinstance(case, Case | ModelCase)]
+    named = [str(name) for name in words if not isinstance(name, Case | ModelCase)]
+    chosen = choose_models(named) if named else None
+    if chosen and chosen.mistakes:
+        raise CaseError(chosen.mistakes)
+    models = [*(chosen.cases if chosen else ())]
+    others = [*(chosen.others if chosen else ())]
+    found = choose_cases(others) if others or not words else []
+    cases = told_apart([*(case for case in given if isinstance(case, Case)), *found])
+    return [*cases, *(case for case in given if isinstance(case, ModelCase)), *models]
+
+
+def _given(word: Any) -> Any:
+    """Returns what was given, with each model that is no file as a case."""
+    if isinstance(word, list | tuple):
+        return [_given(each) for each in word]
+    if isinstance(word, str) and word.lstrip().startswith("<"):
+        return of_model("", "MJCF", "model", word)
+    given: Any = word
+    kind = type(given)
+    if kind.__module__.partition(".")[0] != "mujoco":
+        return word
+    if kind.__name__ == "MjSpec":
+        from ...engines.own_model.model import compiled_by
+
+        return of_model("", kind.__name__, "model", compiled_by(kind.__name__, given.compile).model)
+    return of_model("", kind.__name__, "model", word)
 
 
 def solve(word: Word) -> Reference:
@@ -163,7 +190,7 @@ def solve(word: Word) -> Reference:
     from .page.motion_frames import reference_frame
     from .show import progress as shown
 
-    words = _listed("cases", word, (str, Path, Case))
+    words = _listed("cases", _given(word), (str, Path, Case, ModelCase))
     if not words:
         raise CaseError([Mistake("cases", 0, 0, "", "none is named; one can be solved")])
     cases = load(words)
@@ -172,6 +199,9 @@ def solve(word: Word) -> Reference:
         named = ", ".join(str(getattr(one, "name", one)) for one in words)
         raise CaseError([Mistake(named, 0, 0, "", f"has variants; solve one of: {names}")])
     (case,) = cases
+    if isinstance(case, ModelCase):
+        what = "is a model, whose limit is MuJoCo's own: `run` compares its steps with that"
+        raise CaseError([Mistake(case.file, 0, 0, "", what)])
     with shown.aloud():
         solution = solved(case)
     if mistakes := mistaken(case, solution.trajectory):
@@ -229,7 +259,9 @@ def run(
     own = made(Document(Source("options", (), {}), _options(options), []), OWN)
     names = _listed("engines", engines, (str,))
     files = [str(file) for file in _listed("settings", settings, (str, Path))]
-    wanted = requested(found, names, files, own=list(own.values()))
+    models = [case for case in found if isinstance(case, ModelCase)]
+    cases = [case for case in found if isinstance(case, Case)]
+    wanted = requested(cases, names, files, own=list(own.values()), models=models)
     known = committed.committed_causes() if causes and cache else None
     with _aloud(progress) as told:
         store = usable() if cache else None

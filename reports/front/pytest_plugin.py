@@ -22,6 +22,7 @@ import pytest
 if TYPE_CHECKING:
     from ...cases.case import Case
     from ...cases.mistake import CaseError
+    from ...cases.model_case import ModelCase
     from ..runs.suite import Report
     from ..tables.row import Certificate, Comparison
     from .collecting import Earlier
@@ -227,16 +228,21 @@ class CaseFile(pytest.File):
     """A case file: its mistakes, or the items of all its variants."""
 
     def collect(self) -> Iterator[pytest.Item]:
+        from ...cases.load_model import has_model
         from ...cases.mistake import CaseError
-        from .collecting import collected
+        from .collecting import collected, collected_models
 
         option, earlier = self.config.getoption, partial(_earlier, self.session)
         long, names = bool(option("textmech_allow_long")), option("textmech_engine") or []
         wanted, own = option("textmech_case") or [], _settings(self.config)
         spare = not option("textmech_settings")  # what the ini file names may be of other engines
         try:
-            found = collected(
-                self.path, names, own, wanted, earlier, long=long, spare=spare, write=_tell
+            found: list[Any] = (
+                [*collected_models(self.path, names, own, wanted, long=long)]
+                if has_model(self.path)
+                else collected(
+                    self.path, names, own, wanted, earlier, long=long, spare=spare, write=_tell
+                )
             )
         except CaseError as error:
             error = _as_typed(error)
@@ -300,7 +306,7 @@ class MistakeItem(pytest.Item):
 class CaseItem(pytest.Item):
     """A row of the report, run together with all others that are collected."""
 
-    def __init__(self, *, case: "Case", **kwargs: Any) -> None:
+    def __init__(self, *, case: "Case | ModelCase", **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.case = case
 
@@ -410,8 +416,17 @@ class ComparisonItem(CaseItem):
 
     @property
     def promised(self) -> bool:
-        """Whether it is of the user's own options, which have to agree wherever they run."""
-        return self.key[2] in [Path(word).stem for word in _settings(self.config)]
+        """Whether it is of the user's own options, which have to agree wherever they run.
+
+        So has a model of the user's own at its own setting.
+        """
+        from ...cases.find import is_shipped
+        from ...cases.model_case import ModelCase
+        from ..compare.own_steps import OWN
+
+        own = self.key[2] in [Path(word).stem for word in _settings(self.config)]
+        mine = isinstance(self.case, ModelCase) and self.key[2] == OWN
+        return own or (mine and not is_shipped(self.path))
 
     def row(self) -> "Comparison":
         """Its row. Raises RowError where it has none."""
@@ -449,17 +464,24 @@ def _found(session: pytest.Session) -> "Report":
 
 def _measure(session: pytest.Session) -> "Report":
     """Runs what is collected, or takes it from another worker of xdist, which collects the same."""
+    from ...cases.model_case import ModelCase
     from .session import rows
     from .show.progress import aloud, progress
 
     items = [item for item in session.items if isinstance(item, CaseItem)]
     cases = {item.case.name: item.case for item in items}
-    used = {".".join(item.key[1:3]) for item in items if isinstance(item, ComparisonItem)}
+    used = {
+        ".".join(item.key[1:3])
+        for item in items
+        if isinstance(item, ComparisonItem) and not isinstance(item.case, ModelCase)
+    }
     shared = getattr(session.config, "workerinput", {}).get(_SHARED)
     cached = not session.config.getoption("textmech_no_cache")
     with aloud(_tell), progress(quiet=True) as told:
         own = _settings(session.config)
-        return rows(list(cases.values()), sorted(used), own, shared, told, cached=cached)
+        models = [case for case in cases.values() if isinstance(case, ModelCase)]
+        scenes = [case for case in cases.values() if not isinstance(case, ModelCase)]
+        return rows(scenes, sorted(used), own, shared, told, cached=cached, models=models)
 
 
 def _tell(line: str) -> None:

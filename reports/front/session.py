@@ -5,7 +5,9 @@ from pathlib import Path
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError
+from ...cases.model_case import ModelCase
 from ..runs.cache.store import Store, usable
+from ..runs.models import Settings, own_engines, settings_of
 from ..runs.processes import termination as ending
 from ..runs.request import Request
 from ..runs.selection import BOOK, choose_engines
@@ -22,13 +24,14 @@ def rows(
     progress: Progress,
     *,
     cached: bool = True,
+    models: Sequence[ModelCase] = (),
 ) -> Report:
     """Runs the cases on all cores, or takes them from the store: another worker of xdist asks for
     the same, waits, and finds it there. A mistake that solving finds costs its own file.
 
     used: `engine.setting`. settings: files of the user's own options. shared: a folder for the
     workers where the user has no store. cached: whether anything is taken from the user's store, or
-    kept there.
+    kept there. models: of the user's own, in all of their settings and those of the files.
     """
     if shared is not None:
         ending.with_parent()
@@ -36,8 +39,17 @@ def rows(
     engines = choose_engines(names, settings, spare=True) if names else []
     store = (usable() if cached else None) or (Store(Path(shared)) if shared else None)
     try:
+        stepped = settings_of([*choose_engines([], []), *own_engines(settings)]) if models else None
         return measure(
-            Request(cases, engines, len(names) < len(used), progress=progress, store=store)
+            Request(
+                cases,
+                engines,
+                len(names) < len(used),
+                progress=progress,
+                store=store,
+                models=models,
+                model_settings=stepped or Settings(),
+            )
         )
     except CaseError as error:
         return Report(mistakes=error.mistakes)

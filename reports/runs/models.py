@@ -12,15 +12,19 @@ from ...cases.load_model import has_model, load_model
 from ...cases.mistake import CaseError, Mistake
 from ...cases.model_case import ModelCase, of_model
 from ...engines.engine import Engine
+from ...engines.own_model.limit import with_step
 from ...engines.own_model.model import image
 from ...engines.own_model.opened import opened
 from ..compare.own_rows import Modelled, lost, modelled
-from ..compare.own_steps import OTHERS, Setting
+from ..compare.own_steps import OTHERS, OWN, Setting
+from ..compare.own_steps import settings_of as settings_for
 from .processes.pool import Died
-from .selection import is_model, nameable
+from .selection import choose_engines, is_model, nameable
 from .task_results import Results
 
 ENGINE = "mujoco"
+OPTIONS_OF = "options"
+"""What the setting `own` of a call in Python is called: a model has one of that name."""
 SUFFIXES = (".xml", ".urdf")
 OPTIONS = (
     "step", "integrator", "solver", "cone", "iterations", "ls_iterations", "noslip_iterations",
@@ -112,6 +116,12 @@ def settings_of(engines: Sequence[Engine]) -> Settings | None:
     return Settings(others, own)
 
 
+def own_engines(files: Sequence[str]) -> list[Engine]:
+    """Returns MuJoCo with a user's options, of each file of settings."""
+    engines = choose_engines([], [*files], spare=True) if files else []
+    return [engine for engine in engines if engine.name == ENGINE]
+
+
 def _setting(engine: Engine) -> Setting:
     options: Mapping[str, Any] = getattr(engine, "options", {})
     strange = [name for name in options if name not in OPTIONS]
@@ -119,8 +129,9 @@ def _setting(engine: Engine) -> Setting:
         what = f"is an option of a scene; a model's own file says it. Known: {', '.join(OPTIONS)}"
         where = f"{engine.setting}.{ENGINE}"
         raise CaseError([Mistake("--settings", 0, 0, f"{where}.{n}", what) for n in strange])
+    setting = OPTIONS_OF if engine.setting == OWN else engine.setting
     rest = {name: value for name, value in options.items() if name != "step"}
-    return Setting(engine.setting, rest, options.get("step", 0.0))
+    return Setting(setting, rest, options.get("step", 0.0))
 
 
 @dataclass(frozen=True)
@@ -139,6 +150,18 @@ class Task:
     def limit(self) -> float:
         """How long it may take [s]: of a thousand joints one second may take an hour."""
         return LIMIT
+
+
+def row_names(case: ModelCase, beside: Settings) -> list[tuple[str, str]] | CaseError:
+    """Returns the setting and the quantity of each row of a model; or its mistakes."""
+    try:
+        ready = opened(case)
+    except CaseError as error:
+        return error
+    settings = settings_for(ready.own, beside.others, beside.own)
+    if not ready.own.model.nv or with_step(ready.own.model):
+        settings = settings[:1]
+    return [(setting.name, quantity.name) for setting in settings for quantity in ready.bars]
 
 
 def digest(task: Task) -> str | CaseError:

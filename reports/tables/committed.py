@@ -11,6 +11,7 @@ from functools import cache
 
 from ...cases.case import Case
 from ...cases.find import is_shipped
+from ...cases.model_case import ModelCase
 from .ownership import HERE
 from .row import Cause, Comparison, Known, rank
 from .write import read
@@ -49,7 +50,7 @@ def committed_causes() -> Known:
     return Known()
 
 
-def before(case: Case, key: Key, version: str, step: float | None) -> Comparison | None:
+def before(case: Case | ModelCase, key: Key, version: str, step: float | None) -> Comparison | None:
     """Returns the committed row of the same question; None: another case, version or step."""
     found = rows().get(key)
     if found is None or found.version != version or not is_shipped(case.source.file):
@@ -59,7 +60,7 @@ def before(case: Case, key: Key, version: str, step: float | None) -> Comparison
     return found
 
 
-def worse(case: Case, row: Comparison) -> str:
+def worse(case: Case | ModelCase, row: Comparison) -> str:
     """How a row is worse than the committed one, in words; or nothing."""
     found = before(case, key_of(row), row.version, row.step)
     if found is None:

@@ -11,10 +11,12 @@ from ....cases.scene.difference import apart
 from ....cases.scene.observe import observe
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array, Trajectory
+from ...compare.own_rows import Modelled
 from ...runs.suite import Report
 from ...runs.trials import Tried
 
 POSES = ("x", "y", "z", "angle")
+LIMIT = "limit"
 REFERENCE = ("reference", "", "")  # no setting, and no way to realise one
 BY = ("engine", "setting", "realised")
 
@@ -55,7 +57,26 @@ def motion_frames(report: Report) -> dict[str, pd.DataFrame]:
         if case.name in report.solutions:
             frames = dict(_frames(report, case, of.get(case.name, [])))
             found[case.name] = pd.concat(frames, names=list(BY)).sort_index()
-    return found
+    return found | {
+        model.case.name: pd.concat(dict(_model_frames(model)), names=list(BY)).sort_index()
+        for model in report.models
+        if model.steps is not None
+    }
+
+
+def _model_frames(model: Modelled) -> Iterator[tuple[tuple[str, str, str], pd.DataFrame]]:
+    """The coordinates of a user's model: of its limit, in a reference's place, and of its steps."""
+    assert model.steps is not None
+    limit, names = model.steps.limit, [name for name, _ in model.coordinates]
+    motions = {(LIMIT, "", ""): limit.q} | {
+        ("mujoco", each.setting.name, "native"): each.y[:, : len(names)]
+        for each in model.steps.settings
+        if each.y is not None
+    }
+    for way, q in motions.items():
+        frame = pd.DataFrame(q, columns=names, index=pd.Index(limit.times, name="t"))
+        frame.attrs["units"] = dict(model.coordinates)
+        yield way, frame
 
 
 def _frames(

@@ -19,11 +19,11 @@ from textmech.cases.find import shipped
 from textmech.cases.mistake import CaseError
 from textmech.reference import solve
 from textmech.reference.certificate.agreement import Check
-from textmech.reports import load
 from textmech.reports.front.cli import command
 from textmech.reports.front.command.options import Folder
 from textmech.reports.front.show.console import shown
 from textmech.reports.runs import selection
+from textmech.reports.runs.selection import choose_cases
 from textmech.reports.tables import write
 
 # What a mistake in one file costs: its own file, and the exit code of the command.
@@ -157,13 +157,11 @@ def test_a_model_of_an_engine_is_told_as_one(tmp_path: Path, text: str, told: st
     file = tmp_path / "model.xml"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(CaseError) as error:
-        load(file)
+        choose_cases([str(file)])
     (mistake,) = error.value.mistakes
     assert mistake.what.startswith(f"is {told}; ")
-    assert ("`textmech check` compares" in mistake.what) == (
-        told in ("an MJCF model", "a URDF model")
-    )
-    assert ("show CASE --engine mujoco` writes MJCF" in mistake.what) == ("MJCF model" in told)
+    read = told in ("an MJCF model", "a URDF model")
+    assert ("read a model as it is" in mistake.what) == read
 
 
 @pytest.mark.slow
@@ -171,11 +169,10 @@ def test_every_other_command_tells_a_model_as_one(tmp_path: Path) -> None:
     (tmp_path / "model.xml").write_text("<mujoco/>\n", encoding="utf-8")
     for words in (
         "advise", "causes", "show --engine mujoco", "plot --out x.svg",
-        "page --out x.html",
     ):  # fmt: skip
         done = textmech(*words.split(), "model.xml", folder=tmp_path)
         assert done.returncode == 2, words
-        assert done.stderr.startswith("model.xml: is an MJCF model; `textmech check` compares its")
+        assert done.stderr.startswith("model.xml: is an MJCF model; ")
 
 
 ROBOT = """\
@@ -209,15 +206,13 @@ def test_run_compares_a_models_steps_with_their_limit(tmp_path: Path) -> None:
     assert done.returncode == 0
     assert "its limit for h → 0 by DOP853, known to " in done.stdout
     (own,) = [line for line in done.stdout.splitlines() if line.startswith("  own ")]
-    assert own.split()[:3] == ["own", "2", "ms"]
-    assert own.split()[4] == "swing"
+    assert own.split()[:5] == ["own", "Euler", "2", "ms", "swing.angle"]
     assert "nothing moves" in done.stdout
     told = json.loads(textmech("run", "robot.xml", "--json", folder=tmp_path).stdout)
-    rows = told["models"][0]["steps"]
-    assert [row["setting"] for row in rows] == ["own", "implicitfast", "RK4"]
-    mixed = textmech("run", "robot.xml", "--engine", "mujoco", folder=tmp_path)
-    assert mixed.returncode == 2
-    assert "a model of your own is run alone" in mixed.stderr
+    assert {row["setting"] for row in told["tolerance"]} == {"own", "recommended", "rk4"}
+    asked = textmech("run", "robot.xml", "--engine", "pymunk", folder=tmp_path)
+    assert asked.returncode == 2
+    assert "is a model, which MuJoCo alone reads" in asked.stderr
 
 
 @pytest.mark.mutant("a model of an engine is read as YAML")
@@ -228,7 +223,7 @@ def test_a_model_that_is_read_as_a_case_is_seen(
     file = tmp_path / "model.xml"
     file.write_text("<mujoco>\n  <worldbody/>\n</mujoco>\n", encoding="utf-8")
     with pytest.raises(CaseError, match="should be a map of keys") as error:
-        load(file)
+        choose_cases([str(file)])
     assert "MJCF" not in str(error.value)
 
 
