@@ -92,12 +92,16 @@ class ModelCase:
     samples: int = SAMPLES
     allow: Mapping[str, Amount] = field(default_factory=lambda: {JOINTS: Amount(TOLERANCE)})
     given: Any = None
+    in_folder: bool = False
+    """Whether it was only found in a folder: what is wrong with it is a row, and no mistake."""
 
     def mistake(self, path: Path, what: str) -> Mistake:
         """Returns a mistake at a place of the case file; without one of the model's."""
         return self.source.mistake(path, what)
 
 
-def of_model(path: str, file: str, name: str, given: Any = None) -> ModelCase:
+def of_model(
+    path: str, file: str, name: str, given: Any = None, *, in_folder: bool = False
+) -> ModelCase:
     """Returns the case of a model alone: 1 s from its first keyframe, 1e-3 rad and m."""
-    return ModelCase(name, path, file, Source(file, (), {}), given=given)
+    return ModelCase(name, path, file, Source(file, (), {}), given=given, in_folder=in_folder)

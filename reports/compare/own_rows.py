@@ -91,11 +91,11 @@ def modelled(
     )  # fmt: skip
 
 
-def lost(case: ModelCase, because: str) -> Modelled:
-    """Returns the row of a model that ended its process, or took too long."""
+def lost(case: ModelCase, because: str, verdict: str = CRASHED) -> Modelled:
+    """Returns the row of a model that ended its process, took too long, or does not compile."""
     row = Comparison(
         case.name, THEME, case.title, ENGINE, VERSION, OWN, NATIVE, "", "motion", "",
-        None, None, None, None, None, None, None, CRASHED, because,
+        None, None, None, None, None, None, None, verdict, because,
     )  # fmt: skip
     return Modelled(case, "", "", None, (), because, [row])
 

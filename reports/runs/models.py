@@ -18,6 +18,7 @@ from ...engines.own_model.opened import opened
 from ..compare.own_rows import Modelled, lost, modelled
 from ..compare.own_steps import OTHERS, OWN, Setting
 from ..compare.own_steps import settings_of as settings_for
+from ..tables.row import REFUSED
 from .processes.pool import Died
 from .selection import choose_engines, is_model, nameable
 from .task_results import Results
@@ -89,7 +90,7 @@ def _folder(folder: Path) -> Iterator[ModelCase]:
     for path in sorted(folder.rglob("*")):
         if path.suffix.lower() in SUFFIXES and path.is_file() and is_model(path):
             name = path.relative_to(folder).with_suffix("").as_posix()
-            yield of_model(str(path.resolve()), str(path), name)
+            yield of_model(str(path.resolve()), str(path), name, in_folder=True)
 
 
 @dataclass(frozen=True)
@@ -193,9 +194,7 @@ def measured(
     keys: dict[str, str] = {}
     answers: dict[str, Any] = {}
     for index, word in words.items():
-        if isinstance(word, CaseError):
-            mistakes += word.mistakes
-        elif isinstance(word, Died):
+        if isinstance(word, CaseError | Died):
             answers[index] = word
         else:
             keys[index] = results.keys.model(tasks[index], word)
@@ -204,12 +203,12 @@ def measured(
     rows: list[Modelled] = []
     for index in sorted(answers, key=int):
         answer, case = answers[index], tasks[index].case
-        if isinstance(answer, CaseError):
+        if isinstance(answer, CaseError) and not case.in_folder:
             mistakes += answer.mistakes
+        elif isinstance(answer, CaseError):
+            rows.append(lost(case, "; ".join(m.what for m in answer.mistakes), REFUSED))
+        elif isinstance(answer, Died):
+            rows.append(lost(case, answer.because))
         else:
-            rows.append(
-                lost(case, answer.because)
-                if isinstance(answer, Died)
-                else replace(answer, case=case)
-            )
+            rows.append(replace(answer, case=case))
     return rows, mistakes

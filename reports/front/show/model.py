@@ -1,12 +1,13 @@
 """Says of a user's model what it is, how far off its steps are, and what of it is compared."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import astuple, dataclass
 from math import inf
 
 from ....cases.mistake import plain
 from ...compare import own_equations
 from ...compare.own_rows import Modelled
-from ...compare.own_steps import Stepped, Steps
+from ...compare.own_steps import OWN, Stepped, Steps
 from ...tables.row import REFUSED, Comparison
 from ...tables.short_numbers import factor, milliseconds
 from ...tables.spoken import spoken
@@ -14,6 +15,61 @@ from ...tables.spoken import spoken
 HEAD = (
     f"  {'setting':13} {'integrator':13} {'step':>8}  {'worst':24}{'off by':>12} {'of allowed':>11}"
 )
+
+
+FEW = 3  # models: of more there is one table, a row each
+
+
+@dataclass(frozen=True)
+class Line:
+    """A model in a table: its worst quantity at its own setting, what keeps all, what is not read.
+
+    keeps: the setting with the coarsest step that does.
+    """
+
+    model: str
+    own: str
+    keeps: str
+    remark: str
+
+
+def line(model: Modelled) -> Line:
+    """Returns a model's row."""
+    name, steps = model.case.name, model.steps
+    unread = [what for part in model.parts for what in part.unread]
+    fails = [f"FAILS: {part.name}" for part in model.parts if not part.holds]
+    because = [model.because] if model.because else []
+    remark = "; ".join([*fails, *because, *([f"{len(unread)} not read"] if unread else [])])
+    if steps is None:
+        return Line(name, "", "", remark)
+    rows = [row for row in model.comparisons if row.setting == OWN]
+    worst = max(rows, key=_size)
+    own = f"{worst.quantity} {factor(worst.ratio)}" if worst.ratio is not None else worst.verdict
+    best = max(
+        (each for each in steps.settings if each.keeps), key=lambda each: each.keeps or 0.0,
+        default=None,
+    )  # fmt: skip
+    keeps = "none tried"
+    if best is not None and best.keeps is not None:
+        keeps = f"{best.setting.name} {milliseconds(best.keeps)}"
+    return Line(name, own, keeps, remark)
+
+
+def _size(row: Comparison) -> float:
+    return inf if row.error is None else row.ratio or 0.0
+
+
+def overview(models: Sequence[Modelled]) -> str:
+    """Returns a table, a row a model."""
+    rows = [("model", "own setting, of allowed", "kept from", "not compared"), *(
+        astuple(line(model)) for model in models
+    )]  # fmt: skip
+    widths = [max(len(plain(row[k])) for row in rows) for k in range(3)]
+    return "\n".join(
+        "  ".join([*(f"{plain(cell):{wide}}" for cell, wide in zip(row[:3], widths, strict=True)),
+                   plain(row[3])]).rstrip()
+        for row in rows
+    )  # fmt: skip
 
 
 def model_lines(model: Modelled) -> Iterator[str]:
@@ -52,7 +108,7 @@ def _steps(model: Modelled, steps: Steps) -> Iterator[str]:
 
 def _line(model: Modelled, stepped: Stepped, rows: Sequence[Comparison]) -> str:
     setting = stepped.setting
-    worst = max(rows, key=lambda row: inf if row.error is None else row.ratio or 0.0)
+    worst = max(rows, key=_size)
     orders: Mapping[str, float | None] = {
         row.quantity: row.order for row in model.rungs if row.setting == setting.name
     }

@@ -10,11 +10,11 @@ from ....engines import SETTINGS as OFFERED
 from ...runs.selection import BOOK
 from ...runs.suite import Report
 from ...tables.promised import unkept
-from ...tables.row import AGREES, FAILS, Certificate, Comparison
+from ...tables.row import AGREES, FAILS, Certificate, Comparison, Rungs
 from ...tables.short_numbers import milliseconds
 from ...tables.spoken import SETTINGS, spoken
 from .console import say
-from .model import model_lines
+from .model import FEW, model_lines, overview
 from .summary import Cures, approximations, summary
 from .table import WIDTH, narrow
 
@@ -24,26 +24,30 @@ def show(
 ) -> None:
     """The summary, warnings, what fails, the rows of named cases, and where it was written."""
     models = {model.case.name for model in report.models}
-    for model in report.models if detailed else ():
+    scenes = [row for row in report.comparisons if row.case not in models]
+    certified = [row for row in report.certificates if row.case not in models]
+    for model in report.models if detailed and len(models) <= FEW else ():
         for text in model_lines(model):
             say(text)
-    _summary(report, cures or {})
+    if len(models) > 1:
+        say(f"\n{overview(report.models)}")
+    _summary(scenes, report.rungs, cures or {})
     for case, warning in report.warnings():
         for text in _wrapped(f"{case}: warning: {warning}", ""):
             say(text)
     for check in report.certificates:
         if check.verdict == FAILS:
             numbers = f"{check.difference:.2e} is above {check.bound:.1e}"
-            say(f"FAILS: {check.case}: the reference's {check.check}: {numbers}")
+            whose = "MuJoCo's" if check.case in models else "the reference's"
+            say(f"FAILS: {check.case}: {whose} {check.check}: {numbers}")
     _fails([row for row in report.comparisons if row.verdict == FAILS])
     for case in report.cases:
         for note in unkept(case, report.comparisons):
             say(note)
-    for note in without_effect(report.comparisons):
+    for note in without_effect(scenes):
         say(note)
     if detailed:
-        told = [row for row in report.comparisons if row.case not in models]
-        for text in (*certificate_lines(report.certificates), *rows(told)):
+        for text in (*certificate_lines(certified), *rows(scenes)):
             say(text)
         say()
     counts = Counter(row.verdict for row in report.comparisons)
@@ -52,8 +56,7 @@ def show(
         say(f"written to {written}")
 
 
-def _summary(report: Report, cures: Cures) -> None:
-    found, rungs = report.comparisons, report.rungs
+def _summary(found: Sequence[Comparison], rungs: Sequence[Rungs], cures: Cures) -> None:
     for lines in (summary(found, rungs, cures), approximations(found, rungs)):
         if lines:
             say(f"\n{narrow(lines)}")
