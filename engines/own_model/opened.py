@@ -128,7 +128,7 @@ def _set(
     if unit is not None:
         unit = f"{unit}/s" if rate else unit
         numbers = [turned(fitting(number, unit), unit) for number in numbers]
-    values = np.array([number.value for number in numbers])
+    values = np.array([number.value for number in numbers], dtype=np.float64)
     if not rate and wide > 1:
         length = np.linalg.norm(values[-4:])
         if not length:
