@@ -35,7 +35,18 @@ def load(
 
     Raises CaseError with every mistake of the file.
     """
-    document = read(path)
+    return load_document(read(path), path, systems=systems, engines=engines, long=long)
+
+
+def load_document(
+    document: Document,
+    path: FilePath,
+    *,
+    systems: Systems | None = None,
+    engines: Engines | None = None,
+    long: bool = False,
+) -> list[Case]:
+    """The cases of a document, as of a file at this path. Raises CaseError with every mistake."""
     if not long and (what := too_many_variants(document.data)):  # before any is even looked at
         raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document)

@@ -302,23 +302,13 @@ def _no_less(value: float) -> str:
 def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
     """A place or velocity that stays what it was proves nothing, unless that is the claim."""
     known = table(case.scene)
-    states = np.concatenate(list(motion.states.values()))
     for name in (name for name in case.allow if name in known):  # the rest are of events
         quantity = known[name]
         claimed = name in case.stays
         if quantity.kind not in ("coordinate", "velocity"):
             continue
         samples = observe(case.scene, motion, name)
-        # a place held at 0 trembles by rounding, which is small only beside the other bodies'
-        size = max(
-            np.max(np.abs(samples)),
-            np.max(np.abs(states[:, case.scene.frame.alike(quantity.unit)]), initial=0.0),
-        )
-        moved = _moved(samples)
-        least = STILL * size
-        if quantity.unit == "m" and samples.ndim == 1:  # where the scene stands is no motion
-            least = max(STILL * _spread(motion, case), HELD * size)
-        still = moved <= max(least, NOISE * _floor(case, quantity.unit))
+        moved, still = _moved(samples), stays(case, motion, name)
         if case.rests and not claimed:
             if not still:
                 what = f"{name} moves by {moved:.3g} {quantity.unit}"
@@ -330,6 +320,21 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         elif claimed and not still:
             what = f"moves by {moved:.3g} {quantity.unit}"
             yield case.mistake(("stays", case.stays.index(name)), what)
+
+
+def stays(case: Case, motion: Trajectory, name: str) -> bool:
+    """Whether a place or velocity stays what it was, but for rounding."""
+    samples, unit = observe(case.scene, motion, name), table(case.scene)[name].unit
+    states = np.concatenate(list(motion.states.values()))
+    # a place held at 0 trembles by rounding, which is small only beside the other bodies'
+    size = max(
+        np.max(np.abs(samples)),
+        np.max(np.abs(states[:, case.scene.frame.alike(unit)]), initial=0.0),
+    )
+    least = STILL * size
+    if unit == "m" and samples.ndim == 1:  # where the scene stands is no motion
+        least = max(STILL * _spread(motion, case), HELD * size)
+    return _moved(samples) <= max(least, NOISE * _floor(case, unit))
 
 
 def _spread(motion: Trajectory, case: Case) -> float:

@@ -66,7 +66,8 @@ def command() -> None:
     """Measures physics engines against textbook mechanics.
 
     A CASE is the name of a shipped case (`textmech list`), one of its variants
-    (`rolling_wheel.pushed`), or the path of a YAML file anywhere.
+    (`rolling_wheel.pushed`), the path of a YAML file anywhere, or the function of yours that makes
+    a pymunk.Space, as `mygame:make_space`.
 
     \b
       textmech run                            all cases: regenerates reports/*.csv

@@ -19,6 +19,7 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake, Source, nearest
 from ...cases.model_case import ModelCase, of_model
+from ...engines.own_space import AnySpace, is_space
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,7 +31,8 @@ OWN = "own"  # how the column of a user's own options is called
 SMALLEST = 1e-300
 MOST = 3  # plots that a notebook shows unasked
 BY_DEFAULT = ("jobs", "tolerance")  # numbers that may be None
-Word = str | Path | Case | ModelCase
+SPACE = "space"  # how a Space is called that comes without a name
+Word = str | Path | Case | ModelCase | AnySpace
 
 
 @dataclass(frozen=True)
@@ -141,6 +143,7 @@ def load(word: Word | Sequence[Word] = ()) -> list[Any]:
     """The cases of a name, a variant (`rolling_wheel.pushed`) or a YAML file; all shipped for none.
 
     A model is a case as well: an MJCF or URDF file, the text of one, an `MjSpec` or an `MjModel`.
+    So is a `pymunk.Space`, or the name of a function that makes one, as `mygame:make_space`.
     Raises CaseError with all mistakes of all files, and where two cases have one name.
     """
     from ..runs.models import choose_models
@@ -165,6 +168,10 @@ def _given(word: Any) -> Any:
         return [_given(each) for each in word]
     if isinstance(word, str) and word.lstrip().startswith("<"):
         return of_model("", "MJCF", "model", word)
+    if is_space(word):
+        from ..runs.spaces import space_case
+
+        return space_case(word, SPACE, SPACE)
     given: Any = word
     kind = type(given)
     if kind.__module__.partition(".")[0] != "mujoco":
@@ -307,7 +314,7 @@ def advise(
     from ..search.advice.advise import advised
 
     _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
-    if not (words := _listed("cases", word, (str, Path, Case))):
+    if not (words := _listed("cases", _given(word), (str, Path, Case))):
         raise CaseError([Mistake("cases", 0, 0, "", "none is named: all of them take very long")])
     wanted = requested(load(words), _listed("engines", engines, (str,)), ["shipped"])
     bar = Requirement(tolerance, margin)

@@ -1,5 +1,6 @@
 """From the words of a command line to cases and engines."""
 
+import os
 import re
 import warnings
 from collections.abc import Iterator, Mapping, Sequence, Set
@@ -11,7 +12,7 @@ from xml.etree.ElementTree import ParseError, iterparse
 
 from ... import engines
 from ...cases.case import Case
-from ...cases.find import find, shipped
+from ...cases.find import SUFFIXES, find, shipped
 from ...cases.language.check.engines import Engines
 from ...cases.language.document import read
 from ...cases.load import load
@@ -20,7 +21,8 @@ from ...engines.engine import Engine, Realised
 from ...reference.integrators.now import doing
 from ...reference.systems import SYSTEMS
 from ...reference.systems.states.stated import STATED
-from ..tables.user_settings import SUFFIXES, read_settings
+from ..tables.user_settings import SUFFIXES as OF_SETTINGS
+from ..tables.user_settings import read_settings
 
 BOOK = "book"
 NAME = re.compile(r"\w[\w-]*", re.ASCII)
@@ -146,6 +148,11 @@ def _no_case(root: str) -> str:
     return f"is {kind}; {where}{models if root in ('mujoco', 'robot') else ''}"
 
 
+def names_function(word: str) -> bool:
+    """Whether it is `module:function`, of a function that makes a Space, and names no file."""
+    return ":" in word and not word.endswith(SUFFIXES) and not os.path.lexists(word)
+
+
 def nameable(word: str) -> None:
     """A case is called as its file is, and the name stands in tables and on terminals.
 
@@ -161,6 +168,11 @@ def nameable(word: str) -> None:
 
 
 def _cases(word: str, known: Engines | None, long: bool) -> list[Case]:
+    if names_function(word):
+        from .spaces import space_case, space_of  # which look at whole motions
+
+        name = word.rpartition(":")[2]
+        return [space_case(space_of(word), word, name, known=known, long=long)]
     stem, _, variant = word.partition(".")
     if stem not in shipped() or not variant or Path(word).exists():
         return load(find([word])[0], systems=HANDWRITTEN, engines=known, long=long)
@@ -300,7 +312,7 @@ def _offered(word: str, offers: Mapping[str, Sequence[str]], own: Sequence[str])
     if not dot or setting in offers[name] or setting in own:
         return
     hint = nearest(word, [f"{name}.{offered}" for offered in (*offers[name], *own)])
-    files = [file for suffix in SUFFIXES if (file := Path(f"{setting}{suffix}")).is_file()]
+    files = [file for suffix in OF_SETTINGS if (file := Path(f"{setting}{suffix}")).is_file()]
     if files and not own:
         hint = f"; of your own options say --settings {files[0]} too"
     raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{hint}")])

@@ -11,6 +11,7 @@ import click
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say, tell
 from .done import DONE, finished
+from .looking import tell_spaces
 from .options import Finite, Folder, allow_long, as_json, jobs, named_engines, no_cache, overwrite
 
 if TYPE_CHECKING:
@@ -101,6 +102,7 @@ def advise(
     if out is not None:
         unasked(out, [write.ADVICE], overwrite=overwrite)
     chosen = choose_cases(cases, long=allow_long)
+    tell_spaces(chosen)
     request = requested(chosen, _without_setting(names), ["shipped"], named=False)
     if request.mistakes:
         raise CaseError(request.mistakes)

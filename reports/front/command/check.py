@@ -9,6 +9,7 @@ import click
 
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say
+from .looking import tell_spaces
 from .options import BAD_INPUT, FAILED, allow_long, as_json, processes
 
 if TYPE_CHECKING:
@@ -121,6 +122,7 @@ def _units(
         return
     try:
         cases = choose_cases([file], long=long)
+        tell_spaces(cases)
         if wrong := too_long(cases, engines):
             raise CaseError(wrong)
         yield _Task(file, cases)

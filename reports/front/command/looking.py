@@ -8,6 +8,7 @@ from ....cases.mistake import CaseError, Mistake
 from ..show.console import tell
 
 if TYPE_CHECKING:
+    from ....cases.case import Case
     from ...runs.request import Request
     from ...runs.suite import Report
 
@@ -27,6 +28,7 @@ def named(
     chosen = choose_models(words, long=long)
     others = chosen.others if words else words
     cases, mistakes = sound_cases(others, long=long) if others or not words else ([], [])
+    tell_spaces(cases)
     request = requested(
         cases, names, settings, mistakes=[*chosen.mistakes, *mistakes], named=bool(words),
         long=long, models=chosen.cases,
@@ -36,6 +38,15 @@ def named(
     for warning in request.warnings:
         tell(warning)
     return request
+
+
+def tell_spaces(cases: "Sequence[Case]") -> None:
+    """Tells how those cases are read that are Spaces of a user's own."""
+    from ...runs.selection import names_function
+
+    for case in cases:
+        if names_function(case.source.file):
+            tell(f"{case.source.file}: {case.title}")
 
 
 def looked_at(request: "Request", *, causes: bool = False, cached: bool = True) -> "Report":
