@@ -6,6 +6,7 @@ Whoever compiled it, an engine or a person, the numbers are enough to write its 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -20,10 +21,8 @@ WIDTH: dict[Kind, tuple[int, int]] = {
     "hinge": (1, 1),
 }
 """By a joint's kind how many numbers of q and of v it has."""
-
-
-Places = np.ndarray[tuple[int], np.dtype[np.intp]]
-"""(n,): of each velocity its coordinate."""
+SHIFTS: dict[Kind, int] = {"free": 3, "ball": 0, "slide": 1, "hinge": 0}
+"""By a joint's kind how many of its v, the first ones, are no turns."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +73,6 @@ class Line:
 
     name: str
     coefficients: Array  # (n,), of the v that change it
-    places: Places
     spring: tuple[float, float]
     stiffness: float
     damping: float
@@ -85,13 +83,12 @@ class Line:
 class Motor:
     """An actuator without a state: force = gain u + b₀ + b₁ ℓ + b₂ ℓ̇, clamped, times its moments.
 
-    moments (n,): ∂ℓ/∂q̇. gain (3,): g₀ + g₁ ℓ + g₂ ℓ̇; bias (3,). places as of a `Line`. u: the
-    number of its control. control and force: within which limits they are held.
+    moments (n,): ∂ℓ/∂q̇. gain (3,): g₀ + g₁ ℓ + g₂ ℓ̇; bias (3,). u: the number of its control.
+    control and force: within which limits they are held.
     """
 
     name: str
     moments: Array
-    places: Places
     u: int
     gain: Array
     bias: Array
@@ -125,6 +122,39 @@ class Tree:
     def joints(self) -> list[TreeJoint]:
         """All joints, in the order of their links."""
         return [joint for link in self.links for joint in link.joints]
+
+    @cached_property
+    def places(self) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+        """(n,): of each velocity of a hinge or slide its coordinate; of others the first."""
+        places = np.zeros(self.n, dtype=np.intp)
+        for joint in self.joints:
+            places[joint.v : joint.v + WIDTH[joint.kind][1]] = joint.q
+        return places
+
+    @cached_property
+    def carried(self) -> Array:
+        """(links, n): 1 where a velocity moves the link, 0 elsewhere."""
+        rows = np.zeros((len(self.links), self.n))
+        for row, link in zip(rows, self.links, strict=True):
+            row[:] = rows[link.parent] if link.parent >= 0 else 0.0
+            for joint in link.joints:
+                row[joint.v : joint.v + WIDTH[joint.kind][1]] = 1.0
+        return rows
+
+    @cached_property
+    def before(self) -> Array:
+        """(n, n): 1 where the second velocity moves the axis of the first, 0 elsewhere.
+
+        They are numbered from the ground outwards. A turn about three axes moves none of them
+        against the body, which carries them.
+        """
+        rows = np.zeros((self.n, self.n))
+        for row, link in zip(self.carried, self.links, strict=True):
+            for joint in link.joints:
+                turns, end = joint.v + SHIFTS[joint.kind], joint.v + WIDTH[joint.kind][1]
+                rows[joint.v : turns, : joint.v] = row[: joint.v]
+                rows[turns:end, :turns] = row[:turns]
+        return rows
 
     def named(self, k: int) -> str:
         """Returns whose velocity the k-th is: a joint's name, and of several which of them."""

@@ -16,7 +16,6 @@ from ...cases.tree import (
     Line,
     Link,
     Motor,
-    Places,
     Tree,
     TreeJoint,
 )
@@ -118,16 +117,10 @@ def _sum(m: mujoco.MjModel, tendon: int) -> Array:
     return coefficients
 
 
-def _places(m: mujoco.MjModel) -> Places:
-    """(nv,) int: of each velocity of a hinge or slide its coordinate; of others the first."""
-    return np.array([m.jnt_qposadr[j] for j in m.dof_jntid], dtype=np.intp)
-
-
 def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
     return Line(
         named(m, OBJECT.mjOBJ_TENDON, i),
         _sum(m, i),
-        _places(m),
         (float(m.tendon_lengthspring[i, 0]), float(m.tendon_lengthspring[i, 1])),
         float(m.tendon_stiffness[i]) if springs else 0.0,
         float(m.tendon_damping[i]) if damps else 0.0,
@@ -170,7 +163,6 @@ def _motor(m: mujoco.MjModel, i: int) -> Motor:
     return Motor(
         named(m, OBJECT.mjOBJ_ACTUATOR, i),
         np.zeros(m.nv) if off else moments * m.actuator_gear[column(m, "actuator_outadr")[i], 0],
-        _places(m),
         int(control),
         gain if affine else gain * [1.0, 0.0, 0.0],
         np.array(m.actuator_biasprm[i, :3]) if biased else np.zeros(3),

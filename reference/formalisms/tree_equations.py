@@ -3,190 +3,219 @@
 A second answer to a compiled model: it sees plain arrays, and no engine.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ...cases.tree import Kind, Link, Places, Tree, TreeJoint
+from ...cases.tree import Kind, Motor, Tree, TreeJoint
 from ..coverage import equation
 from ..system import Array
 
 
 @dataclass(frozen=True)
-class Frame:
-    """A frame on its way, in ground axes: where it is, and how it moves.
+class Axes:
+    """How the velocities move what they carry: by w (n, 3) each turns it, by s (n, 3) shifts it.
 
-    r (3,), E (3, 3) whose columns are its axes; ω (3,), and J_r, J_ω (3, n) with ṙ = J_r v and
-    ω = J_ω v; a and α (3,): r̈ and ω̇ where v̇ = 0.
+    A point x of a body has ẋ = Σ v_k (w_k × x + s_k) over those k that carry the body: s_k is how
+    fast what moves with v_k passes the origin. p (n, 3): a point that the turn leaves at rest.
     """
 
-    r: Array
-    E: Array
-    omega: Array
-    J_r: Array
-    J_omega: Array
-    a: Array
-    alpha: Array
+    w: Array
+    p: Array
+    t: Array  # (n, 3): how fast p is shifted
 
-    @equation
-    def at(self, x: Array) -> "Frame":
-        """(2.6), (2.7) ṙ + ω × x, r̈ + ω̇ × x + ω × (ω × x), at a point x (3,) [m] beside r."""
-        turning = np.cross(self.omega, np.cross(self.omega, x))
-        return replace(
-            self,
-            r=self.r + x,
-            J_r=self.J_r + np.cross(self.J_omega, x, axis=0),
-            a=self.a + np.cross(self.alpha, x) + turning,
-        )
+    @property
+    def s(self) -> Array:
+        """(2.7) ṙ + ω × x, of the origin."""
+        return self.t - cross(self.w, self.p)
 
-    def turned(self, J: Array, v: Array, R: Array) -> "Frame":
-        """Turned by R (3, 3) in its own axes, at J v, J (3, n), of axes that it carries."""
-        rate = J @ v
-        alpha = self.alpha + np.cross(self.omega, rate)
-        omega, J_omega = self.omega + rate, self.J_omega + J
-        return replace(self, E=self.E @ R, omega=omega, J_omega=J_omega, alpha=alpha)
 
-    def shifted(self, u: Array, s: float, J: Array, v: Array) -> "Frame":
-        """Shifted by s [m] along u (3,), which it carries, at the rate J v, J (3, n)."""
-        carried = self.at(u * s)
-        coriolis = 2 * np.cross(self.omega, J @ v)
-        return replace(carried, J_r=carried.J_r + J, a=carried.a + coriolis)
+def cross(a: Array, b: Array) -> Array:
+    """(N, 3): a × b, row by row; np.cross takes several times as long."""
+    return a[:, NEXT] * b[:, AFTER] - a[:, AFTER] * b[:, NEXT]
+
+
+NEXT, AFTER = [1, 2, 0], [2, 0, 1]
 
 
 def rotation(q: Array) -> Array:
     """(3, 3): the axes of a unit quaternion (w, x, y, z), as columns; its length plays no part."""
-    w, x, y, z = np.asarray(q) / np.linalg.norm(q)
+    w, x, y, z = np.asarray(q).tolist()
+    n = 2.0 / (w * w + x * x + y * y + z * z)
     return np.array(
         [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            [1 - n * (y * y + z * z), n * (x * y - w * z), n * (x * z + w * y)],
+            [n * (x * y + w * z), 1 - n * (x * x + z * z), n * (y * z - w * x)],
+            [n * (x * z - w * y), n * (y * z + w * x), 1 - n * (x * x + y * y)],
         ]
     )
 
 
 def about(axis: Array, angle: float) -> Array:
     """(3, 3): the turn by an angle [rad] about a unit vector."""
-    return rotation(np.array([np.cos(angle / 2), *(np.sin(angle / 2) * np.asarray(axis))]))
+    sine, (x, y, z) = math.sin(angle / 2), axis.tolist()
+    return rotation(np.array([math.cos(angle / 2), sine * x, sine * y, sine * z]))
+
+
+Placed = tuple[Array, Array]
+"""Where a frame is, r (3,), and its axes, the columns of E (3, 3); both in ground axes."""
 
 
 @equation
-def frames(tree: Tree, q: Array, v: Array) -> list[Frame]:
-    """(2.8)–(2.12) R_k and E_k of each body's origin and axes, as functions of q, and rates."""
-    still = np.zeros((3, tree.n))
-    ground = Frame(np.zeros(3), np.eye(3), np.zeros(3), still, still, np.zeros(3), np.zeros(3))
-    links: list[Frame] = []
+def placed(tree: Tree, q: Array) -> tuple[list[Placed], Axes]:
+    """(2.8)–(2.12) R_k and E_k of each body's origin and axes, as functions of q; the axes."""
+    axes = Axes(*(np.zeros((tree.n, 3)) for _ in range(3)))
+    links: list[Placed] = []
     for link in tree.links:
-        parent = ground if link.parent < 0 else links[link.parent]
-        frame = replace(parent.at(parent.E @ link.place), E=parent.E @ rotation(link.attitude))
+        r, E = (np.zeros(3), np.eye(3)) if link.parent < 0 else links[link.parent]
+        frame = r + E @ link.place, E @ rotation(link.attitude)
         for joint in link.joints:
-            frame = MOVES[joint.kind](frame, joint, q, v)
+            frame = MOVES[joint.kind](frame, joint, q, axes)
         links.append(frame)
-    return links
+    return links, axes
 
 
-def _freed(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
-    n, k = len(v), joint.v
-    E = rotation(q[joint.q + 3 : joint.q + 7])
-    placed = Frame(
-        np.array(q[joint.q : joint.q + 3]), np.eye(3), np.zeros(3), _columns(np.eye(3), k, n),
-        np.zeros((3, n)), np.zeros(3), np.zeros(3),
-    )  # fmt: skip
-    return placed.turned(_columns(E, k + 3, n), v, E)
+def _freed(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+    r, E = q[joint.q : joint.q + 3], rotation(q[joint.q + 3 : joint.q + 7])
+    k = joint.v
+    axes.t[k : k + 3], axes.w[k + 3 : k + 6], axes.p[k + 3 : k + 6] = np.eye(3), E.T, r
+    return r, E
 
 
-def _slid(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
-    u = frame.E @ joint.axis
-    return frame.shifted(u, q[joint.q] - joint.zero, _columns(u[:, None], joint.v, len(v)), v)
+def _slid(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+    r, E = frame
+    u = axes.t[joint.v] = E @ joint.axis
+    return r + u * (q[joint.q] - joint.zero), E
 
 
-def _balled(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
-    R = rotation(q[joint.q : joint.q + 4])
-    return _hung(frame, joint, _columns(frame.E @ R, joint.v, len(v)), v, R)
+def _balled(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+    return _hung(frame, joint, rotation(q[joint.q : joint.q + 4]), np.eye(3), axes)
 
 
-def _hinged(frame: Frame, joint: TreeJoint, q: Array, v: Array) -> Frame:
-    J = _columns((frame.E @ joint.axis)[:, None], joint.v, len(v))
-    return _hung(frame, joint, J, v, about(joint.axis, q[joint.q] - joint.zero))
+def _hinged(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+    turn = about(joint.axis, float(q[joint.q]) - joint.zero)
+    return _hung(frame, joint, turn, joint.axis[None], axes)
 
 
-def _hung(frame: Frame, joint: TreeJoint, J: Array, v: Array, R: Array) -> Frame:
-    hung = frame.at(frame.E @ joint.anchor).turned(J, v, R)
-    return hung.at(-hung.E @ joint.anchor)
+def _hung(frame: Placed, joint: TreeJoint, R: Array, turns: Array, axes: Axes) -> Placed:
+    """Turned by R, as velocities do about the axes (k, 3), which it carries, of the anchor."""
+    (r, E), at = frame, slice(joint.v, joint.v + len(turns))
+    anchor, hung = r + E @ joint.anchor, E @ R
+    axes.p[at], axes.w[at] = anchor, turns @ hung.T
+    return anchor - hung @ joint.anchor, hung
 
 
-MOVES: Mapping[Kind, Callable[[Frame, TreeJoint, Array, Array], Frame]] = {
+MOVES: Mapping[Kind, Callable[[Placed, TreeJoint, Array, Axes], Placed]] = {
     "free": _freed, "slide": _slid, "ball": _balled, "hinge": _hinged,
 }  # fmt: skip
-"""By a joint's kind the frame that it makes of the one before it."""
-
-
-def _columns(J: Array, first: int, n: int) -> Array:
-    wide = np.zeros((3, n))
-    wide[:, first : first + J.shape[1]] = J
-    return wide
+"""By a joint's kind the frame that it makes of the one before it; it notes its axes."""
 
 
 @dataclass(frozen=True)
 class Moving:
-    """A body's frame in its centre of mass, and its inertia (3, 3) [kg m²] in ground axes."""
+    """The B bodies that have mass, as they move at v (n,): of their centres of mass, and turning.
 
-    link: Link
-    centre: Frame
+    mass (B,), J (B, 3, 3) [kg m²] in ground axes, omega (B, 3); J_r, J_omega (B, 3, n) with
+    ṙ = J_r v and ω = J_ω v; a and alpha (B, 3): r̈ and ω̇ where v̇ = 0. lifted (B,): the share of
+    their weight that is compensated.
+    """
+
+    mass: Array
     J: Array
-
-
-def moving(tree: Tree, q: Array, v: Array) -> list[Moving]:
-    """The bodies that have mass, at q (m,) and v (n,)."""
-    return [
-        Moving(link, frame.at(frame.E @ link.centre), frame.E @ link.J @ frame.E.T)
-        for link, frame in zip(tree.links, frames(tree, q, v), strict=True)
-        if link.mass or np.any(link.J)
-    ]
+    omega: Array
+    J_r: Array
+    J_omega: Array
+    a: Array
+    alpha: Array
+    lifted: Array
 
 
 @equation
-def mass_matrix(tree: Tree, bodies: Sequence[Moving]) -> Array:
+def moving(tree: Tree, q: Array, v: Array) -> Moving:
+    """(2.6), (2.7) ṙ + ω × x and its rate r̈ + ω̇ × x + ω × (ω × x) of all bodies, by v (n,)."""
+    frames, axes = placed(tree, q)
+    heavy = [k for k, link in enumerate(tree.links) if link.mass or np.any(link.J)]
+    links = [tree.links[k] for k in heavy]
+    carried = tree.carried[heavy]
+    E = np.array([frames[k][1] for k in heavy]).reshape(-1, 3, 3)
+    r = np.array([frames[k][0] + frames[k][1] @ tree.links[k].centre for k in heavy])
+    r = r.reshape(-1, 3)
+    w, s, v = axes.w, axes.s, v[:, None]
+    turning, passing = tree.before @ (w * v), tree.before @ (s * v)  # of what carries each axis
+    w_rate = cross(turning, w)
+    p_rate = cross(turning, axes.p) + passing
+    s_rate = cross(turning, axes.t) - cross(w_rate, axes.p) - cross(w, p_rate)
+    omega, alpha = carried @ (w * v), carried @ (w_rate * v)
+    r_rate = cross(omega, r) + carried @ (s * v)
+    J = np.array([link.J for link in links]).reshape(-1, 3, 3)
+    columns = carried[:, None, :]
+    return Moving(
+        np.array([link.mass for link in links]),
+        E @ J @ E.transpose(0, 2, 1),
+        omega,
+        columns * (s.T - _skew(r) @ w.T),
+        columns * w.T,
+        cross(alpha, r) + cross(omega, r_rate) + carried @ (s_rate * v),
+        alpha,
+        np.array([link.lifted for link in links]),
+    )
+
+
+def _skew(r: Array) -> Array:
+    """(B, 3, 3): r × as matrices."""
+    x, y, z = r.T
+    zero = np.zeros_like(x)
+    return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
+
+
+def _along(J: Array, vectors: Array) -> Array:
+    """(n,): Σ Jᵀ F over all bodies, J (B, 3, n), F (B, 3)."""
+    return J.reshape(-1, J.shape[2]).T @ vectors.ravel()
+
+
+@equation
+def mass_matrix(tree: Tree, bodies: Moving) -> Array:
     """(2.54) M (n, n) of T = ½ Σ m ṙ_c² + ω·J ω = ½ vᵀ M v, and the armatures."""
-    M = np.diag(tree.armature).astype(np.float64)
-    for body in bodies:
-        at = body.centre
-        M += body.link.mass * at.J_r.T @ at.J_r + at.J_omega.T @ body.J @ at.J_omega
+    shifts = (np.sqrt(bodies.mass)[:, None, None] * bodies.J_r).reshape(-1, tree.n)
+    turns = bodies.J_omega.reshape(-1, tree.n)
+    M = shifts.T @ shifts + turns.T @ (bodies.J @ bodies.J_omega).reshape(-1, tree.n)
     for line in tree.lines:
         M += line.armature * np.outer(line.coefficients, line.coefficients)
-    return M
+    return M + np.diag(tree.armature)
 
 
 @equation
-def bias(tree: Tree, bodies: Sequence[Moving]) -> Array:
+def bias(tree: Tree, bodies: Moving) -> Array:
     """(2.23) m r̈_c − m g, (2.33) J ω̇ + ω × J ω where v̇ = 0, of all bodies: (n,) [N, N m].
 
     The equations of motion are M v̇ + this = all other forces.
     """
-    forces = np.zeros(tree.n)
-    for body in bodies:
-        force, moment = _needed(tree, body)
-        forces += body.centre.J_r.T @ force + body.centre.J_omega.T @ moment
-    return forces
+    forces, moments = _needed(tree, bodies)
+    return _along(bodies.J_r, forces) + _along(bodies.J_omega, moments)
 
 
-def _needed(tree: Tree, body: Moving) -> tuple[Array, Array]:
-    at = body.centre
-    turning = np.cross(at.omega, body.J @ at.omega)
-    return body.link.mass * (at.a - tree.gravity), body.J @ at.alpha + turning
+def _needed(tree: Tree, bodies: Moving) -> tuple[Array, Array]:
+    turning = cross(bodies.omega, _times(bodies.J, bodies.omega))
+    forces = bodies.mass[:, None] * (bodies.a - tree.gravity)
+    return forces, _times(bodies.J, bodies.alpha) + turning
 
 
-def size_of_bias(tree: Tree, bodies: Sequence[Moving], M: Array) -> Array:
+def _times(matrices: Array, vectors: Array) -> Array:
+    return (matrices @ vectors[:, :, None])[:, :, 0]
+
+
+def size_of_bias(tree: Tree, bodies: Moving, M: Array) -> Array:
     """(n,) [N, N m]: the largest that `bias` could be with bodies that so move, whatever cancels.
 
     J_rᵀ F of one body is at most √(m J_r²) √(F²/m), and so is the sum of all (Cauchy–Schwarz).
     """
-    square = 0.0
-    for body in bodies:
-        force, moment = _needed(tree, body)
-        square += float(force @ force) / body.link.mass if body.link.mass else 0.0
-        square += float(moment @ np.linalg.pinv(body.J) @ moment)
+    forces, moments = _needed(tree, bodies)
+    heavy = bodies.mass > 0.0
+    square = float(((forces[heavy] ** 2).sum(axis=1) / bodies.mass[heavy]).sum())
+    inverse: Array = np.linalg.pinv(bodies.J).astype(np.float64)
+    square += float((moments * _times(inverse, moments)).sum())
     return np.sqrt(np.diag(M) * square)
 
 
@@ -201,24 +230,23 @@ class Term:
         return Term(self.forces + other.forces, self.size + other.size)
 
 
-def _lifted(tree: Tree, bodies: Sequence[Moving], coordinates: Array | bool) -> Term:
+def _lifted(tree: Tree, bodies: Moving, coordinates: Array | bool) -> Term:
     """The weight that is compensated, in some of the coordinates."""
-    forces, size = np.zeros(tree.n), np.zeros(tree.n)
-    for body in bodies:
-        weight = body.link.lifted * body.link.mass * tree.gravity
-        forces -= body.centre.J_r.T @ weight
-        size += np.linalg.norm(weight) * np.linalg.norm(body.centre.J_r, axis=0)
+    weights = (bodies.lifted * bodies.mass)[:, None] * tree.gravity
+    size = np.linalg.norm(weights, axis=1) @ np.linalg.norm(bodies.J_r, axis=1)
+    forces = -_along(bodies.J_r, weights)
     return Term(np.where(coordinates, forces, 0.0), np.where(coordinates, size, 0.0))
 
 
 @equation
-def passive(tree: Tree, q: Array, v: Array, bodies: Sequence[Moving]) -> Term:
+def passive(tree: Tree, q: Array, v: Array, bodies: Moving) -> Term:
     """(2.45), (2.47) −c (q − q₀), −d q̇ of joints and lines, and compensated weight."""
     forces = _exact(-tree.damping * v)
     for joint, stiffness, rest in tree.springs:
         forces += _spring(joint, stiffness, rest, q, len(v))
     for line in tree.lines:
-        (length, rate), (long, fast) = _length(line.coefficients, line.places, q, v)
+        lengths, sizes = _lengths(tree, line.coefficients[None], q, v)
+        (length, rate), (long, fast) = lengths[0].tolist(), sizes[0].tolist()
         pull = line.stiffness * (np.clip(length, *line.spring) - length) - line.damping * rate
         size = line.stiffness * (long + abs(pull)) + line.damping * fast
         forces += Term(line.coefficients * pull, abs(line.coefficients) * size)
@@ -256,28 +284,33 @@ def _turn(a: Array, b: Array) -> Array:
     return x / sine * (angle - 2 * np.pi if angle > np.pi else angle)
 
 
-def _length(J: Array, places: Places, q: Array, v: Array) -> tuple[tuple[float, float], ...]:
-    """Returns ℓ = Σ J q and its rate, and the sums of the absolute terms of both."""
-    shares, rates = J * q[places], J * v
-    sums = float(shares.sum()), float(rates.sum())
-    return sums, (float(np.abs(shares).sum()), float(np.abs(rates).sum()))
+def _lengths(tree: Tree, J: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """Returns (k, 2) ℓ = Σ J q and ℓ̇, and the sums of the absolute terms of both; J (k, n)."""
+    terms = np.stack([J * q[tree.places], J * v], axis=1)
+    return terms.sum(axis=2), np.abs(terms).sum(axis=2)
 
 
-def driven(tree: Tree, q: Array, v: Array, u: Array, bodies: Sequence[Moving]) -> Term:
+def driven(tree: Tree, q: Array, v: Array, u: Array, bodies: Moving) -> Term:
     """The forces of the motors at controls u, each clamped, with the weight that they lift.
 
     What a joint takes of all of them together is clamped last.
     """
     forces = _exact(np.zeros(tree.n))
-    for motor in tree.motors:
-        lengths, sizes = _length(motor.moments, motor.places, q, v)
-        state, large = np.array([1.0, *lengths]), np.array([1.0, *sizes])
-        control = np.clip(u[motor.u], *motor.control)
-        free = np.dot(motor.gain, state) * control + np.dot(motor.bias, state)
-        size = np.dot(np.abs(motor.gain), large) * abs(control) + np.dot(np.abs(motor.bias), large)
-        forces += Term(motor.moments * np.clip(free, *motor.force), np.abs(motor.moments) * size)
+    if tree.motors:
+        gear, gains, biases, low, high, weak, strong = _stacked(tree.motors)
+        lengths, sizes = (np.insert(of, 0, 1.0, axis=1) for of in _lengths(tree, gear, q, v))
+        control = np.clip(u[[motor.u for motor in tree.motors]], low, high)
+        free = (gains * lengths).sum(axis=1) * control + (biases * lengths).sum(axis=1)
+        size = (abs(gains) * sizes).sum(axis=1) * abs(control) + (abs(biases) * sizes).sum(axis=1)
+        forces = Term(np.clip(free, weak, strong) @ gear, size @ abs(gear))
     if tree.weight_by_motors is not None:
         forces += _lifted(tree, bodies, tree.weight_by_motors)
     if tree.clamped is None:
         return forces
     return Term(np.clip(forces.forces, *tree.clamped.T), forces.size)
+
+
+def _stacked(motors: Sequence[Motor]) -> tuple[Array, ...]:
+    """Returns of all motors: moments (k, n), gain and bias (k, 3), limits of control and force."""
+    rows = ((x.moments, x.gain, x.bias, *x.control, *x.force) for x in motors)
+    return tuple(np.array(column) for column in zip(*rows, strict=True))

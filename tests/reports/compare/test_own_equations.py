@@ -90,15 +90,17 @@ def test_another_number_is_seen(mistake: str) -> None:
 
 
 LINES = {
-    "no Coriolis acceleration along a rail": ("coriolis = 2 * np.cross", "coriolis = 1 * np.cross"),
-    "no ω × J ω": ("return body.link.mass * (at.a - tree.gravity), body.J @ at.alpha + turning",
-                   "return body.link.mass * (at.a - tree.gravity), body.J @ at.alpha"),
+    "an axis that does not turn with its body": (
+        "w_rate = cross(turning, w)", "w_rate = 0 * cross(turning, w)"
+    ),
+    "a rail that does not turn with its body": (
+        "s_rate = cross(turning, axes.t) -", "s_rate = -"
+    ),
+    "no ω × J ω": ("_times(bodies.J, bodies.alpha) + turning", "_times(bodies.J, bodies.alpha)"),
     "a turn about the origin in place of the anchor": (
-        "return hung.at(-hung.E @ joint.anchor)", "return hung.at(-frame.E @ joint.anchor)",
+        "return anchor - hung @ joint.anchor, hung", "return anchor - E @ joint.anchor, hung",
     ),
-    "a joint's zero that plays no part": (
-        "about(joint.axis, q[joint.q] - joint.zero)", "about(joint.axis, q[joint.q])",
-    ),
+    "a joint's zero that plays no part": ("float(q[joint.q]) - joint.zero", "float(q[joint.q])"),
     "a spring that rests at zero": ("rest[:shifts] - now, np", "-now, np"),
 }  # fmt: skip
 
