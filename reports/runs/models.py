@@ -12,7 +12,8 @@ from ...cases.load_model import has_model, load_model
 from ...cases.mistake import CaseError, Mistake
 from ...cases.model_case import ModelCase, of_model
 from ...engines.engine import Engine
-from ...engines.own_model.model import image
+from ...engines.mujoco.callbacks.signal import listening
+from ...engines.own_model.model import VERSION, image
 from ...engines.own_model.opened import opened
 from ..compare.own_rows import Modelled, lost, modelled
 from ..compare.own_steps import OTHERS, Setting
@@ -142,9 +143,9 @@ class Task:
 
 
 def digest(task: Task) -> str | CaseError:
-    """Returns a word of all numbers of the compiled model; or why there is none."""
+    """Returns a word of MuJoCo's release and all numbers of the compiled model; or why not."""
     try:
-        return sha256(image(opened(task.case).own.model)).hexdigest()
+        return sha256(VERSION.encode() + image(opened(task.case).own.model)).hexdigest()
     except CaseError as error:
         return error
 
@@ -152,7 +153,8 @@ def digest(task: Task) -> str | CaseError:
 def done(task: Task) -> Modelled | CaseError:
     """Returns the model's rows, or its mistakes."""
     try:
-        return modelled(task.case, task.settings.others, task.settings.own)
+        with listening():  # what diverges is said in its row
+            return modelled(task.case, task.settings.others, task.settings.own)
     except CaseError as error:
         return error
 
