@@ -135,16 +135,19 @@ def steps(
     own, bars = opened.own, opened.bars
     asked = settings_of(own, others, named)
     times = times_of(case, [setting.step for setting in asked])
-    exact = limit(own, times)
-    until = _horizon(opened, exact)
+    exact, until = limit_and_horizon(opened, times)
     note = PAIRS if apart_by_pairs(own.model) else ""
     rows = [_stepped(opened, setting, exact, times <= until) for setting in asked]
     return Steps(exact, until, rows, note, bars)
 
 
-def _horizon(opened: Opened, exact: Limit) -> float:
-    """Returns until when a disturbance of the start stays below every bar."""
+def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float]:
+    """Returns the limit, and until when a disturbance of the start stays below every bar [s].
+
+    Raises NoLimit.
+    """
     own, bars = opened.own, opened.bars
+    exact = limit(own, times)
     start = own.start()
     by = np.random.default_rng(0).choice((-DISTURBED, DISTURBED), own.model.nv)
     start.qpos[:] = moved(own.model, start.qpos, by)
@@ -153,7 +156,7 @@ def _horizon(opened: Opened, exact: Limit) -> float:
     off = differences([*bars], a, b)
     ratios = [sizes(values) / bars[quantity] for quantity, values in off.items()]
     far = np.flatnonzero(np.max(ratios, axis=0) > 1.0) if ratios else []
-    return float(exact.times[max(far[0] - 1, 0)] if len(far) else exact.times[-1])
+    return exact, float(exact.times[max(far[0] - 1, 0)] if len(far) else exact.times[-1])
 
 
 def _stepped(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> Stepped:

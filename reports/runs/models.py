@@ -12,8 +12,9 @@ from ...cases.load_model import has_model, load_model
 from ...cases.mistake import CaseError, Mistake
 from ...cases.model_case import ModelCase, of_model
 from ...engines.engine import Engine
+from ...engines.mujoco.callbacks.signal import listening
 from ...engines.own_model.limit import with_step
-from ...engines.own_model.model import image
+from ...engines.own_model.model import VERSION, image
 from ...engines.own_model.opened import opened
 from ..compare.own_rows import Modelled, lost, modelled
 from ..compare.own_steps import OTHERS, OWN, Setting
@@ -166,9 +167,9 @@ def row_names(case: ModelCase, beside: Settings) -> list[tuple[str, str]] | Case
 
 
 def digest(task: Task) -> str | CaseError:
-    """Returns a word of all numbers of the compiled model; or why there is none."""
+    """Returns a word of MuJoCo's release and all numbers of the compiled model; or why not."""
     try:
-        return sha256(image(opened(task.case).own.model)).hexdigest()
+        return sha256(VERSION.encode() + image(opened(task.case).own.model)).hexdigest()
     except CaseError as error:
         return error
 
@@ -176,7 +177,8 @@ def digest(task: Task) -> str | CaseError:
 def done(task: Task) -> Modelled | CaseError:
     """Returns the model's rows, or its mistakes."""
     try:
-        return modelled(task.case, task.settings.others, task.settings.own)
+        with listening():  # what diverges is said in its row
+            return modelled(task.case, task.settings.others, task.settings.own)
     except CaseError as error:
         return error
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from ....cases.mistake import CaseError
 from ..show.console import say, tell
 from .done import DONE
 from .options import Folder, allow_long, jobs, overwrite, own_settings
@@ -42,19 +43,26 @@ def versions(
     the one before, by the rule of `textmech diff`, and what moved is shown as a table. What an old
     release lacks is refused in words. A verdict FAILS is a finding here, not an exit code.
 
+    Of a model of your own (MJCF, URDF, or a case with a `model`) it is said which joint a release
+    moved, by how much, and which of the two is nearer to the limit of the model's own equations.
+
     Without CASES some of the shipped ones are taken: pins, loops, friction, rolling, impacts.
 
     \b
       textmech versions mujoco==3.3.7 mujoco==3.7.0 mujoco==4.0.0
       textmech versions pymunk==6.8.1 pymunk==7.3.1 my_case.yaml --settings mine.yaml
+      textmech versions mujoco==3.4.0 mujoco==3.5.0 robot.xml
 
     \b
     Exit codes: 0 done, 2 a mistake: no engine, no such release, no network
     """
+    from ....engines.own_model.opened import opened
+    from ...runs.models import choose_models
     from ...runs.selection import choose_cases, choose_engines
     from ...tables import write
     from ...tables.ownership import unasked
     from ..versions.measure import measure
+    from ..versions.motions import told
     from ..versions.release import parted
     from ..versions.table import NAME, table, text
 
@@ -62,15 +70,26 @@ def versions(
     if out is not None:
         unasked(out, [NAME], overwrite=overwrite)
     chosen = named or [*CASES]
-    cases = [case.name for case in choose_cases(chosen, known=None, long=allow_long)]
+    models = choose_models(chosen, long=allow_long)
+    if models.mistakes:
+        raise CaseError(models.mistakes)
+    cases = [model.name for model in models.cases]
+    if models.others:
+        cases += [case.name for case in choose_cases(models.others, known=None, long=allow_long)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken here may not be asked for
         names = sorted({release.engine for release in releases})
         choose_engines(names, settings, long=allow_long)  # a mistake in own options is found now
-    rows = table([*measure(releases, chosen, settings, jobs, allow_long, tell)], cases)
+    for model in models.cases:
+        opened(model)  # what is wrong with it here is said before any release is installed
+    files = [model.file for model in models.cases]
+    measured = [*measure(releases, chosen, settings, jobs, allow_long, tell, files)]
+    rows = table(measured, cases)
     if out is not None:
         write.write({NAME: rows}, out, overwrite=overwrite)
         DONE.append(f"{NAME} is in {out}")
     say(text(rows, shutil.get_terminal_size().columns))
+    for line in told(models.cases, measured):
+        say(line)
     if out is not None:
         say(f"written to {out / NAME}")

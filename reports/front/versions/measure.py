@@ -7,10 +7,11 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from ....cases.mistake import CaseError, Mistake
 from ...runs.cache.store import FOLDER, by_default, usable
@@ -22,16 +23,22 @@ from .release import Release, alike, place
 ENVIRONMENTS = "versions"  # in the user's cache
 DONE = (0, 1)
 """The exit codes of a run that was done: that a verdict FAILS is a finding here."""
+MUJOCO = "mujoco"
+"""The engine that reads models."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A release and its report; or, where there is none, a verdict and why."""
+    """A release and its report; or, where there is none, a verdict and why.
+
+    motions: by the name of a model of the user's own what `stepping` says of it.
+    """
 
     release: Release
     folder: Folder | None
     verdict: str = ""
     because: str = ""
+    motions: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
 
 def measure(
@@ -41,11 +48,13 @@ def measure(
     jobs: int | None,
     long: bool,
     tell: Callable[[str], None],
+    models: Sequence[str] = (),
 ) -> Iterator[Measured]:
     """Yields each as it is done; all are installed before the first one runs. Raises CaseError.
 
-    long: whether the cases may ask for any amount of work. Cases and settings are sound in this
-    environment: what a release says of the settings is what it lacks.
+    long: whether the cases may ask for any amount of work. models: the files of the user's own
+    among the cases. Cases, models and settings are sound in this environment: what a release says
+    of settings and models is what it lacks.
     """
     words = [word for setting in settings for word in ("--settings", setting)]
     words += ["--jobs", str(jobs)] if jobs else []
@@ -66,7 +75,19 @@ def measure(
             )
             said = done.stdout.decode(errors="replace")
             own = ["--engine", "--settings", *settings]
-            yield _measured(release, done.returncode, said, out, own)
+            measured = _measured(release, done.returncode, said, out, own, models)
+            if models and release.engine == MUJOCO:
+                measured = replace(measured, motions=_motions(found, cache, cases))
+            yield measured
+
+
+def _motions(found: Path | None, cache: Path, cases: Sequence[str]) -> dict[str, Any]:
+    """Returns what the release's own process says of the models; nothing if it ended before."""
+    command = [sys.executable, "-P", "-m", f"{__package__}.stepping", *cases]
+    done = subprocess.run(
+        command, env=_environment(found, cache), stdout=subprocess.PIPE, check=False
+    )
+    return {} if done.returncode else json.loads(done.stdout)
 
 
 def _environment(found: Path | None, cache: Path) -> dict[str, str]:
@@ -75,16 +96,22 @@ def _environment(found: Path | None, cache: Path) -> dict[str, str]:
     return {**os.environ, FOLDER: str(cache)} | ({"PYTHONPATH": path} if path else {})
 
 
-def _measured(release: Release, code: int, said: str, out: Path, asked: Sequence[str]) -> Measured:
+def _measured(
+    release: Release, code: int, said: str, out: Path, asked: Sequence[str],
+    models: Sequence[str] = (),
+) -> Measured:  # fmt: skip
     """Returns what a run in the folder `out` gave, by its exit code and document.
 
-    asked: where a mistake stands that is the release's own. Raises CaseError for any other.
+    asked, models: where a mistake stands that is the release's own; of a model it costs that model
+    alone. Raises CaseError for any other.
     """
     if code < 0:
         return Measured(release, None, CRASHED, f"its process ended by signal {-code}")
-    if code not in DONE or not (out / ERRORS.name).exists():  # 1 is a traceback's code too
-        mistakes = _mistakes(said)
-        own = {Path(place) for place in asked}
+    mistakes = _mistakes(said)
+    some = bool(mistakes) and all(mistake.file in models for mistake in mistakes)
+    written = (out / ERRORS.name).exists()
+    if not written or not (some or code in DONE):  # 1 is a traceback's code too
+        own = {Path(place) for place in (*asked, *models)}
         if mistakes and all(Path(mistake.file) in own for mistake in mistakes):
             why = "; ".join(" ".join(mistake.what.split()) for mistake in mistakes)
             return Measured(release, None, REFUSED, f"adapter: {why}")

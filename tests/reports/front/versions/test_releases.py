@@ -77,6 +77,20 @@ def test_what_a_release_says_of_its_own_settings_is_what_it_lacks(tmp_path: Path
     assert any_mistake._measured(release, 2, mixed, out, ASKED).verdict == "refused"
 
 
+@pytest.mark.mutant("a model that a release does not compile costs all other files")
+def test_a_model_that_a_release_does_not_compile_costs_that_model_alone(tmp_path: Path) -> None:
+    release, out = Release("mujoco", "4.0.0"), report(tmp_path / "out")
+    said = document(Mistake("robot.xml", 0, 0, "", "no such element"))
+    asked = release, 2, said, out, ASKED, ["robot.xml"]
+    assert measure._measured(*asked).folder is not None
+    alone = measure._measured(release, 2, said, tmp_path, ASKED, ["robot.xml"])
+    assert (alone.verdict, alone.because) == ("refused", "adapter: no such element")
+    with pytest.raises(CaseError, match="was not run"):
+        measure._measured(release, 2, said, out, ASKED, ["other.xml"])
+    all_files = otherwise(measure, "(some or code in DONE)", "(code in DONE)")
+    assert all_files._measured(*asked).folder is None
+
+
 @pytest.mark.mutant("another release than the one asked for is measured")
 def test_another_release_than_the_one_asked_for_is_not_measured(tmp_path: Path) -> None:
     out = report(tmp_path / "out", rows=[replace(ROW, version="4.0.0")])

@@ -1,0 +1,130 @@
+"""A model as it is drawn: the outlines of its bodies, and where they are and move in states."""
+
+from collections.abc import Callable, Mapping
+
+import mujoco
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from ...cases.trajectory import Array
+from .model import OwnModel
+from .quantities import called
+
+GEOM = mujoco.mjtGeom
+SHOWN = 3  # groups of geoms: by custom those above hold what collides and is not to be seen
+CORNERS = 24  # of a circle
+FEW = 24  # corners of a mesh's outline at most
+ALONG = ((0, 1), (0, 2), (1, 2))
+"""The planes in which a round body is drawn: by two of its axes."""
+
+Line = Array
+"""(N, 3) [m] places on a body, in its axes, that are joined."""
+
+
+def outlines(model: mujoco.MjModel) -> dict[str, list[Line]]:
+    """Returns by body's name the lines that draw its geoms; a plane has none."""
+    drawn: dict[str, list[Line]] = {}
+    for body in range(model.nbody):
+        first = int(model.body_geomadr[body])
+        geoms = range(first, first + int(model.body_geomnum[body]))
+        shown = [geom for geom in geoms if model.geom_group[geom] < SHOWN] or geoms
+        lines = [line for geom in shown for line in _geom(model, geom)]
+        if lines or body:
+            drawn[called(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines
+    return drawn
+
+
+def has_floor(model: mujoco.MjModel) -> bool:
+    """Whether a plane stands on the ground."""
+    return bool(np.any((model.geom_type == GEOM.mjGEOM_PLANE) & (model.geom_bodyid == 0)))
+
+
+def states(own: OwnModel, y: Array) -> dict[str, Array]:
+    """Returns by body's name (N, 13): r, quaternion, ṙ in ground axes, ω in body axes.
+
+    y (N, m + n + a): (qpos, qvel, act).
+    """
+    m, data = own.model, own.start()
+    rows = np.empty((m.nbody, len(y), 13))
+    rate = np.empty(6)
+    for k, sample in enumerate(y):
+        data.qpos[:], data.qvel[:] = sample[: m.nq], sample[m.nq : m.nq + m.nv]
+        mujoco.mj_fwdPosition(m, data)
+        mujoco.mj_comVel(m, data)
+        for body in range(m.nbody):
+            mujoco.mj_objectVelocity(m, data, mujoco.mjtObj.mjOBJ_XBODY, body, rate, 0)
+            spin = data.xmat[body].reshape(3, 3).T @ rate[:3]
+            rows[body, k] = [*data.xpos[body], *data.xquat[body], *rate[3:], *spin]
+    return {called(m, mujoco.mjtObj.mjOBJ_BODY, body): rows[body] for body in range(m.nbody)}
+
+
+def _geom(m: mujoco.MjModel, geom: int) -> list[Line]:
+    """Returns the lines of a geom, in its body's axes; none of one that is no solid."""
+    kind, R = GEOM(m.geom_type[geom]), np.zeros(9)
+    if kind not in SHAPES:
+        return []
+    mujoco.mju_quat2Mat(R, m.geom_quat[geom])
+    return [m.geom_pos[geom] + line @ R.reshape(3, 3).T for line in SHAPES[kind](m, geom)]
+
+
+def _ring(a: int, b: int, corners: int = CORNERS) -> Line:
+    turns = np.linspace(0.0, 2 * np.pi, corners + 1)
+    ring = np.zeros((len(turns), 3))
+    ring[:, a], ring[:, b] = np.cos(turns), np.sin(turns)
+    return ring
+
+
+def _sphere(m: mujoco.MjModel, geom: int) -> list[Line]:
+    return [m.geom_size[geom, 0] * _ring(*plane) for plane in ALONG]
+
+
+def _ellipsoid(m: mujoco.MjModel, geom: int) -> list[Line]:
+    return [m.geom_size[geom] * _ring(*plane) for plane in ALONG]
+
+
+def _capsule(m: mujoco.MjModel, geom: int) -> list[Line]:
+    radius, half = m.geom_size[geom, :2]
+    rings = [radius * _ring(axis, 2) for axis in (0, 1)]
+    return [ring + [0.0, 0.0, half] * np.sign(np.round(ring, 12)) for ring in rings]
+
+
+def _cylinder(m: mujoco.MjModel, geom: int) -> list[Line]:
+    radius, half = m.geom_size[geom, :2]
+    ends = [radius * _ring(0, 1) + [0.0, 0.0, z] for z in (-half, half)]
+    quarters = slice(0, CORNERS, CORNERS // 4)
+    return [*ends, *np.stack(ends, axis=1)[quarters]]
+
+
+def _box(m: mujoco.MjModel, geom: int) -> list[Line]:
+    signs = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
+    faces = [m.geom_size[geom] * np.insert(signs, 2, z, axis=1) for z in (-1, 1)]
+    return [*faces, *np.stack(faces, axis=1)[:4]]
+
+
+def _mesh(m: mujoco.MjModel, geom: int) -> list[Line]:
+    """Returns what is seen of its hull along each of its three axes."""
+    mesh = m.geom_dataid[geom]
+    first = m.mesh_vertadr[mesh]
+    vertices = np.array(m.mesh_vert[first : first + m.mesh_vertnum[mesh]], dtype=np.float64)
+    return [_outermost(vertices, plane) for plane in ALONG]
+
+
+def _outermost(vertices: Array, plane: tuple[int, int]) -> Line:
+    try:
+        around = ConvexHull(vertices[:, plane]).vertices
+    except QhullError:  # a flat mesh, along its plane
+        across = np.ptp(vertices, axis=0).argmax()
+        return vertices[[vertices[:, across].argmin(), vertices[:, across].argmax()]]
+    kept = around[np.unique(np.linspace(0, len(around) - 1, FEW).round().astype(int))]
+    return vertices[[*kept, kept[0]]]
+
+
+SHAPES: Mapping[mujoco.mjtGeom, Callable[[mujoco.MjModel, int], list[Line]]] = {
+    GEOM.mjGEOM_SPHERE: _sphere,
+    GEOM.mjGEOM_ELLIPSOID: _ellipsoid,
+    GEOM.mjGEOM_CAPSULE: _capsule,
+    GEOM.mjGEOM_CYLINDER: _cylinder,
+    GEOM.mjGEOM_BOX: _box,
+    GEOM.mjGEOM_MESH: _mesh,
+}
+"""By a geom's type the lines that draw it, in its own axes."""
