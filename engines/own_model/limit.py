@@ -7,28 +7,19 @@ import copy
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import Any, Literal
+from typing import Any
 
 import mujoco
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from ...cases.trajectory import Array
-from .control import Controls
+from .equations import SLIGHT, Equations, Fineness, NoLimit, begun_as, controls_of
 from .model import BROKEN, OwnModel, apart
 from .release import column, enabled
 
-TIGHT, LOOSE = 1e-10, 1e-8  # relative: what the two answers differ by is the limit's own error
-FLOOR = 1e-3  # of a relative tolerance: the absolute one, of rad and m
-MOST = 60_000  # accelerations of one answer: an explicit method crawls where a servo is stiff
-ITERATIONS = 200  # of Newton's solver at most
-EXACT = 1e-16  # its tolerance: what 1e-8 leaves is noise that stalls integrators; 0 never stops
-FIRST = 1e-6  # s: the first step of each piece at most
-SLIGHT = 1e-6  # of a step: what begins with a step in the clock's rounding begins with it
-FINE = 64  # parts of its own step, where no integrator comes through
-Method = Literal["DOP853", "Radau"]
-METHODS: tuple[Method, ...] = ("DOP853", "Radau")  # explicit, and for stiff servos
+WITHIN = 1e-4  # rad, m: no limit is sought finer than that where it takes many steps
+PARTS = 32  # of the model's own step, at first, where no integrator comes through
+MOST_STEPS, FEW = 3_000_000, 8  # of an answer, by the number of degrees of freedom, FEW at least
 H_IN_THE_LAW = {
     "discrete": "the integrator `discrete` has the step in its law",
     "delay": "an actuator's delay or history is counted in steps",
@@ -38,52 +29,72 @@ H_IN_THE_LAW = {
 }
 
 
-class NoLimit(Exception):
-    """Why a model has no limit here, in words."""
+def _loose(parts: int) -> Fineness:
+    return Fineness(1e-8, 1e-6, parts)
+
+
+def _tight(parts: int) -> Fineness:
+    return Fineness(1e-10, 1e-8, parts)
 
 
 @dataclass(frozen=True)
 class Limit:
     """The motion for h → 0: y = (qpos, qvel, act) (N, k) at the times (N,) [s], q (N, m) of them.
 
-    error: by how much two answers differ, the largest of all coordinates; method: what integrates.
+    errors (N,): by how much two answers differ up to each time, the largest of all coordinates;
+    method: what integrates; fineness: of the finer answer.
     """
 
     times: Array
     y: Array
     q: Array
-    error: float
+    errors: Array
     method: str
+    fineness: Fineness
+
+    @property
+    def error(self) -> float:
+        """The largest of its errors."""
+        return float(self.errors[-1])
+
+    def known_until(self, within: float) -> float:
+        """Returns the last time [s] up to which its error is no more than that."""
+        return float(self.times[np.searchsorted(self.errors, within, side="right") - 1])
 
 
-def limit(own: OwnModel, times: Array, start: mujoco.MjData | None = None) -> Limit:
+def limit(
+    own: OwnModel, times: Array, start: mujoco.MjData | None = None, within: float = WITHIN
+) -> Limit:
     """Returns the limit of a model from a start on, by default its own. Raises NoLimit.
 
-    The law is that of the model's own step: what `refsafe` makes of a contact hangs on that. Where
-    many contacts switch it is the engine's own at a small part of its step.
+    The law is that of the model's own step: what `refsafe` makes of a contact hangs on that. Parts
+    in which contacts switch too often for an integrator are left to small steps of the engine's,
+    ever smaller ones until two answers differ by no more than `within` [rad, m], as far as is
+    affordable.
     """
     if reasons := with_step(own.model):
         raise NoLimit("; ".join(reasons))
-    begun = start or own.start()
-    equations = Equations(own, begun)
-    for method in METHODS:
-        try:
-            tight, loose = (equations.followed(times, method, rtol) for rtol in (TIGHT, LOOSE))
-        except _TooMany:
-            continue
-        return _of(own.model, times, tight, loose, method)
-    h = own.model.opt.timestep
-    if apart_by_pairs(own.model):
-        raise NoLimit(f"{MOST} accelerations do not suffice, and {PAIRS}")
-    fine, coarse = (stepped_states(own, times, {}, h / n, begun) for n in (FINE, FINE // 2))
-    if fine is None or coarse is None:
-        raise NoLimit(f"{MOST} accelerations do not suffice, and small steps diverge")
-    return _of(own.model, times, fine, coarse, f"its own steps of {h / FINE:.2g} s")
+    equations = Equations(own, start or own.start())
+    coarse = equations.followed(times, _loose(PARTS // 2))
+    fineness = _tight(PARTS)
+    fine = equations.followed(times, fineness)
+    while True:
+        off = np.abs(apart(own.model, coarse[:, : own.model.nq], fine[:, : own.model.nq]))
+        errors = np.maximum.accumulate(off.max(axis=1, initial=0.0))
+        affordable = MOST_STEPS / max(own.model.nv, FEW) / max(equations.steps, 1)
+        if errors[-1] <= within or not equations.steps or affordable < 2:
+            break
+        finer = 2 ** math.floor(math.log2(min(2 * errors[-1] / within, affordable)))
+        parts = fineness.parts * finer
+        coarse = fine if finer == 2 else equations.followed(times, _loose(parts // 2))
+        fineness = _tight(parts)
+        fine = equations.followed(times, fineness)
+    return Limit(times, fine, fine[:, : own.model.nq], errors, equations.method, fineness)
 
 
-def _of(model: mujoco.MjModel, times: Array, y: Array, other: Array, method: str) -> Limit:
-    q, others = y[:, : model.nq], other[:, : model.nq]
-    return Limit(times, y, q, float(np.abs(apart(model, q, others)).max(initial=0.0)), method)
+def repeated(own: OwnModel, exact: Limit, start: mujoco.MjData) -> Array:
+    """Returns y (N, k) from another start, integrated as finely as a limit. Raises NoLimit."""
+    return Equations(own, start).followed(exact.times, exact.fineness)
 
 
 def with_step(m: mujoco.MjModel) -> list[str]:
@@ -96,88 +107,6 @@ def with_step(m: mujoco.MjModel) -> list[str]:
         "state": m.nplugin or column(m, "nplastic"),
     }
     return [words for name, words in H_IN_THE_LAW.items() if has[name]]
-
-
-class _TooMany(Exception):
-    """More accelerations than one answer may cost."""
-
-
-class Equations:
-    """ẏ = f(t, y) of y = (qpos, qvel, act), from a start on and with its controls in time."""
-
-    def __init__(self, own: OwnModel, start: mujoco.MjData) -> None:
-        self.model, self.controls = copy.copy(own.model), controls_of(own, start)
-        self.model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
-        self.model.opt.tolerance, self.model.opt.iterations = EXACT, ITERATIONS
-        self.data = begun_as(self.model, start)
-        self.y = np.concatenate([start.qpos, start.qvel, start.act])
-        self.asked = 0
-
-    def rate(self, t: float, y: Array) -> Array:
-        """Returns ẏ; q̇ of a quaternion is ½ q ∘ (0, ω)."""
-        self.asked += 1
-        if self.asked > MOST or not np.all(np.isfinite(y)):
-            raise _TooMany
-        m, d = self.model, self.data
-        d.time = t
-        if self.controls.laws:
-            d.ctrl[:] = self.controls.at(min(t, self.before))
-        self._set(y)
-        mujoco.mj_forward(m, d)
-        return np.concatenate([self._q_dot(y), d.qacc, d.act_dot])
-
-    def followed(self, times: Array, method: Method, rtol: float) -> Array:
-        """Returns y (N, k) at the times, to a relative tolerance. Raises _TooMany.
-
-        Each corner of the controls ends a piece, which sees of a jump what stood before.
-        """
-        self.asked = 0
-        first, last = float(times[0]), float(times[-1])
-        ends = [t for t in self.controls.corners if first < t < last] + [last]
-        y, rows = self.y, [self.y[None]]
-        for begins, ends_at in pairwise([first, *ends]):
-            self.before = math.nextafter(ends_at, begins)
-            inside = times[(times > begins) & (times <= ends_at)]
-            answer = solve_ivp(
-                self.rate, (begins, ends_at), y, method, np.union1d(inside, ends_at),
-                rtol=rtol, atol=rtol * FLOOR, max_step=float(times[1] - times[0]),
-                first_step=min(FIRST, (ends_at - begins) / 2),
-            )  # fmt: skip
-            if not answer.success:
-                raise _TooMany
-            rows.append(answer.y.T[: len(inside)])
-            y = answer.y[:, -1]
-        return np.concatenate(rows)
-
-    def _set(self, y: Array) -> None:
-        nq, nv = self.model.nq, self.model.nv
-        self.data.qpos[:], self.data.qvel[:] = y[:nq], y[nq : nq + nv]
-        self.data.act[:] = y[nq + nv :]
-
-    def _q_dot(self, y: Array) -> Array:
-        m, v = self.model, self.data.qvel
-        q_dot = np.empty(m.nq)
-        for j in range(m.njnt):
-            q, at, kind = int(m.jnt_qposadr[j]), int(m.jnt_dofadr[j]), int(m.jnt_type[j])
-            if kind in QUATERNION:
-                shift = QUATERNION[kind]
-                q_dot[q : q + shift] = v[at : at + shift]
-                turn, spin = slice(q + shift, q + shift + 4), slice(at + shift, at + shift + 3)
-                q_dot[turn] = _turning(y[turn], v[spin])
-            else:
-                q_dot[q] = v[at]
-        return q_dot
-
-
-def _turning(q: Array, omega: Array) -> Array:
-    """(4,): ½ q ∘ (0, ω), ω in the body's axes; mju_derivQuat takes it in the ground's."""
-    w, x, y, z = q
-    a, b, c = omega
-    rates = [-x * a - y * b - z * c, w * a + y * c - z * b]
-    return np.array([*rates, w * b + z * a - x * c, w * c + x * b - y * a]) / 2
-
-
-QUATERNION = {0: 3, 1: 0}  # by a joint's type: free, ball: how many shifts stand before it
 
 
 def stepped(
@@ -224,19 +153,6 @@ def stepped_states(
             return None
         states.append(np.concatenate([data.qpos, data.qvel, data.act]))
     return np.array(states)
-
-
-def controls_of(own: OwnModel, start: mujoco.MjData) -> Controls:
-    """Returns a model's controls in time; those without a law stay as they start."""
-    return Controls(np.array(start.ctrl), own.laws)
-
-
-def begun_as(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:
-    """Returns data of the model that begin where others stand, with their controls."""
-    data = mujoco.MjData(model)
-    for name in ("qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"):
-        getattr(data, name)[:] = getattr(start, name)
-    return data
 
 
 INTEGRATORS = {

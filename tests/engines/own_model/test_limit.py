@@ -3,15 +3,17 @@
 from collections.abc import Callable
 from dataclasses import replace
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
 from given.otherwise import otherwise
 
 from textmech.cases.fields.signal import Signal
+from textmech.engines.own_model import equations as ours
 from textmech.engines.own_model import limit as limits
 from textmech.engines.own_model.limit import limit, stepped
-from textmech.engines.own_model.model import OwnModel, compiled_text
+from textmech.engines.own_model.model import OwnModel, apart, compiled_text
 
 Motion = Callable[[np.ndarray], np.ndarray]
 TIMES = np.linspace(0.0, 1.0, 11)
@@ -86,35 +88,107 @@ def after_blow(t: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize(
     ("what", "was", "now"),
     [
-        ("a corner that is stepped over", "for t in self.controls.corners if first < t < last",
-         "for t in ()"),
-        ("a control that stays what it was", "if self.controls.laws:", "if False:"),
+        ("a corner that is stepped over",
+         "self.controls.corners if times[0] < t < times[-1]]", "()]"),
+        ("a control that stays what it was", "self.controls.at(min(t, self.before))", "0.0"),
     ],
 )  # fmt: skip
-def test_a_lost_corner_is_seen(what: str, was: str, now: str) -> None:
+def test_a_lost_corner_is_seen(
+    what: str, was: str, now: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Where all rests before a blow, steps are as long as the samples and pass it."""
-    wrong: ModuleType = otherwise(limits, was, now)
     assert np.abs(limit(driven(BLOW), TIMES).q[:, 0] - after_blow(TIMES)).max() < 1e-9
-    assert np.abs(wrong.limit(driven(BLOW), TIMES).q[:, 0] - after_blow(TIMES)).max() > 0.1
+    monkeypatch.setattr(limits, "Equations", otherwise(ours, was, now).Equations)
+    assert np.abs(limit(driven(BLOW), TIMES).q[:, 0] - after_blow(TIMES)).max() > 0.1
 
 
 @pytest.mark.mutant("a jump seen before its time")
 def test_a_piece_sees_what_stands_before_the_jump_at_its_end() -> None:
-    """Else the integrator creeps up to it: it is right, at more than twice the cost."""
+    """Else the integrator creeps up to it: it is right, at half as much cost again."""
     asked = [0, 0]
-    for k, module in enumerate((limits, otherwise(limits, "min(t, self.before)", "t"))):
+    for k, module in enumerate((ours, otherwise(ours, "min(t, self.before)", "t"))):
         own = driven(STEP)
         equations = module.Equations(own, own.start())
-        equations.followed(TIMES, "DOP853", 1e-10)
-        asked[k] = equations.asked
-    assert asked[1] > 2 * asked[0]
+        equations.followed(TIMES, limits._tight(1))
+        asked[k] = module.MOST - equations.left
+    assert asked[1] > 1.5 * asked[0]
 
 
 @pytest.mark.mutant("a control one step late")
 def test_a_control_is_there_with_the_step_that_begins_with_it() -> None:
     """At 0.7 s, which seven steps of 0.1 s are 1e-16 s ahead of or behind."""
     own = driven(replace(STEP, times=(0.7,)))
-    late: ModuleType = otherwise(limits, "(k + SLIGHT)", "(k - SLIGHT)")
+    late: ModuleType = otherwise(limits, "at((k + SLIGHT) * h)", "at((k - SLIGHT) * h)")
     ends = np.array([0.0, 1.0])
     assert stepped(own, ends, "RK4", 0.1) == pytest.approx(np.array([[0.0], [0.3**2 / 4]]))
     assert late.stepped(own, ends, "RK4", 0.1)[-1, 0] < 0.2**2 / 4 + 1e-9
+
+
+SERVO = """\
+<mujoco><option timestep="0.002" integrator="implicitfast"/><worldbody><body>
+<joint name="wrist" axis="0 1 0"/><geom size=".02" pos=".05 0 0" mass=".1"/></body></worldbody>
+<actuator><position joint="wrist" kp="1000" kv="100" forcerange="-20 20"/></actuator>
+<keyframe><key qpos="0" ctrl=".3"/></keyframe></mujoco>"""
+"""(kv h / M_eff is above 700, and its servo at its limit at first."""
+
+
+def test_a_stiff_servo_is_integrated_by_an_implicit_method() -> None:
+    exact = limit(compiled_text(SERVO), TIMES)
+    assert "Radau" in exact.method
+    assert exact.error < 1e-6
+    assert exact.q[-1, 0] == pytest.approx(0.3, abs=1e-3)
+
+
+TWO_KINDS = """\
+<mujoco><option timestep="0.004"/><worldbody><geom type="plane" size="1 1 1"/>
+<body pos="0 0 .102"><freejoint name="ball"/><geom size=".1" mass="1" solref=".001 1"/></body>
+<body pos="1 0 .102"><freejoint name="other"/><geom size=".1" mass="1"/></body></worldbody>
+<keyframe><key qpos="0 0 .102 1 0 0 0 1 0 .102 1 0 0 0"/></keyframe></mujoco>"""
+SHORT = np.linspace(0.0, 0.2, 21)
+
+
+@pytest.mark.mutant("{what}")
+@pytest.mark.parametrize(
+    ("what", "was", "now"),
+    [
+        ("nothing", "self.steps += count", "self.steps += count"),
+        ("a law of the small step", "mujoco.mj_forward(m, d)\n            mujoco.mj_implicit",
+         "mujoco.mj_forward(fine, d)\n            mujoco.mj_implicit"),
+        ("steps of another length", "h = fine.opt.timestep =", "h = fine.opt.timestep = 1.01 *"),
+    ],
+)  # fmt: skip
+def test_small_steps_reach_what_the_integrators_do(
+    what: str, was: str, now: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of contacts of two kinds too, of which `refsafe` raises one: the law is the own step's."""
+    own = compiled_text(TWO_KINDS)
+    exact = limit(own, SHORT)
+    assert "small steps" not in exact.method
+    assert exact.error < 1e-6
+    module: Any = otherwise(ours, was, now)
+    module.MOST = module.LEAST = 10
+    monkeypatch.setattr(limits, "Equations", module.Equations)
+    rough = limit(own, SHORT, within=1e-5)
+    assert rough.method == "small steps"
+    off = float(np.abs(apart(own.model, rough.q, exact.q)).max())
+    near = off < 2 * max(rough.error, 1e-6)
+    good = near and rough.error < 1e-5 and rough.fineness.parts > limits.PARTS
+    assert good is (what == "nothing")
+
+
+def test_it_is_known_until_two_answers_part() -> None:
+    errors = np.array([0.0, 1e-9, 1e-5, 1e-2])
+    exact = limits.Limit(
+        np.arange(4.0), np.zeros((4, 2)), np.zeros((4, 1)), errors, "", limits._tight(1)
+    )
+    assert exact.error == 1e-2
+    assert [exact.known_until(within) for within in (1e-10, 1e-5, 1e-4, 1.0)] == [0, 2, 2, 3]
+
+
+def test_a_disturbance_is_followed_as_finely_as_the_limit() -> None:
+    own = compiled_text(SERVO)
+    start, exact = own.start(), limit(own, TIMES)
+    start.qpos[0] += 1e-6
+    off = np.abs(limits.repeated(own, exact, start) - exact.y)[:, 0]
+    assert off[0] == pytest.approx(1e-6)
+    assert off[-1] < 1e-6

@@ -11,9 +11,10 @@ from scipy.integrate import solve_ivp
 
 from textmech.cases.fields.number import Amount
 from textmech.cases.model_case import JOINTS, TOLERANCE, ModelCase, of_model
+from textmech.engines.own_model import equations as ours
 from textmech.engines.own_model import limit as limits
-from textmech.engines.own_model.limit import NoLimit, apart, limit, with_step
-from textmech.engines.own_model.model import OwnModel, compiled_text
+from textmech.engines.own_model.limit import NoLimit, limit, with_step
+from textmech.engines.own_model.model import OwnModel, apart, compiled_text
 from textmech.engines.own_model.opened import opened
 from textmech.reference.formalisms import tree_equations
 from textmech.reports.compare import own_steps
@@ -103,13 +104,16 @@ def test_the_limit_is_the_motion_of_the_textbooks_equations() -> None:
          "EXACT, ITERATIONS; self.model.opt.gravity[2] = -9.80665"),
     ],
 )  # fmt: skip
-def test_another_limit_is_seen(what: str, was: str, now: str) -> None:
-    own, wrong = compiled_text(ACROBOT), otherwise(limits, was, now)
+def test_another_limit_is_seen(
+    what: str, was: str, now: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own, wrong = compiled_text(ACROBOT), otherwise(ours, was, now)
     start = own.start()
     start.ctrl[:] = 1.0
     wanted = by_our_equations(own, start)
     assert np.abs(limit(own, TIMES, start).q - wanted).max() < 1e-8
-    assert np.abs(wrong.limit(own, TIMES, start).q - wanted).max() > 1e-5
+    monkeypatch.setattr(limits, "Equations", wrong.Equations)
+    assert np.abs(limit(own, TIMES, start).q - wanted).max() > 1e-5
 
 
 def test_orders_are_those_of_the_methods() -> None:
@@ -121,16 +125,15 @@ def test_orders_are_those_of_the_methods() -> None:
 
 
 @pytest.mark.mutant("a quaternion that turns the other way")
-def test_a_free_body_tumbles_as_its_steps_do() -> None:
+def test_a_free_body_tumbles_as_its_steps_do(monkeypatch: pytest.MonkeyPatch) -> None:
     """The middle axis: by RK4, which is exact to 1e-9 at small steps."""
     own = compiled_text(TUMBLER)
     exact, fine = limit(own, TIMES), limits.stepped(own, TIMES, "RK4", 0.00125)
     assert fine is not None
     assert np.abs(apart(own.model, exact.q, fine)).max() < 1e-7
-    wrong: ModuleType = otherwise(
-        limits, "_turning(y[turn], v[spin])", "_turning(y[turn], -v[spin])"
-    )
-    other = wrong.limit(own, TIMES)
+    wrong = otherwise(ours, "q + 4], v[at : at + 3])", "q + 4], -v[at : at + 3])")
+    monkeypatch.setattr(limits, "Equations", wrong.Equations)
+    other = limit(own, TIMES)
     assert np.abs(apart(own.model, other.q, fine)).max() > 1e-2
 
 
@@ -185,9 +188,10 @@ def test_what_hangs_on_the_step_has_no_limit(words: str, why: str) -> None:
 
 def test_a_rough_limit_judges_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no integrator comes through, its own small steps stand for the limit."""
-    monkeypatch.setattr(limits, "MOST", 10)
+    monkeypatch.setattr(ours, "LEAST", 10)
+    monkeypatch.setattr(ours, "MOST", 10)
     rough = stepped(ACROBOT.replace('integrator="RK4"', ""), tolerance=1e-6)
-    assert rough.limit.method.startswith("its own steps of 0.00016 s")
+    assert rough.limit.method == "small steps"
     assert all(each.keeps is None for each in rough.settings)
 
 
