@@ -76,7 +76,7 @@ def modelled(
         rows = [_refused(case, q, bar, because) for q, bar in ready.bars.items()]
         return Modelled(case, str(own), own.started, None, parts, because, rows, (), (),
                         certificates)  # fmt: skip
-    if result.limit.error <= KNOWN * min(ready.bars.values()):
+    if result.known <= KNOWN * min(ready.bars.values()):
         certificates.append(_known(case, result))
     each = [(stepped, q, error) for stepped in result.settings for q, error in
             stepped.errors.items()]  # fmt: skip
@@ -109,17 +109,18 @@ def _row(
     if error.off is None:
         return _comparison(case, setting, q, bar, how, DIVERGED, because="its own step diverges")
     size = metric.error(error.off, error.off * 0.0)
-    least = max(limit.error, DIGITS * size.largest)
+    known = result.known
+    least = max(known, DIGITS * size.largest)
     largest = metric.round_to_floor(size.largest, least)
     because = ""
-    if largest - limit.error > bar:
+    if largest - known > bar:
         verdict = BEYOND
-    elif largest + limit.error <= bar:
+    elif largest + known <= bar:
         verdict = AGREES
     else:
-        verdict, because = REFUSED, f"the limit is known to {limit.error:.0e} only"
-    if result.until < limit.times[-1]:
-        late = f"judged until {result.until:.3g} s: later a disturbance of 1e-9 exceeds a bar"
+        verdict, because = REFUSED, f"the limit is known to {known:.0e} only"
+    if result.late:
+        late = f"judged until {result.until:.3g} s: {result.late}"
         because = "; ".join(filter(None, [because, late]))
     return _comparison(
         case, setting, q, bar, how, verdict,
@@ -182,6 +183,6 @@ def _certificates(case: ModelCase, parts: Sequence[Part]) -> Iterator[Certificat
 def _known(case: ModelCase, result: Steps) -> Certificate:
     """The row of the limit's own error."""
     bound = KNOWN * min(result.bars.values())
-    error = result.limit.error
+    error = result.known
     return Certificate(case.name, case.title, result.limit.method, "error of the limit", error,
                        bound, error, "", "holds")  # fmt: skip

@@ -18,6 +18,7 @@ from ...engines.own_model.limit import (
     Limit,
     apart_by_pairs,
     limit,
+    repeated,
     stepped_states,
 )
 from ...engines.own_model.model import OwnModel, moved
@@ -31,9 +32,9 @@ DISTURBED = 1e-9  # rad, m: what grows from it to the tolerance is chaos, and ju
 OWN = "own"
 OTHERS = {"shipped": "Euler", "recommended": "implicitfast", "rk4": "RK4"}
 """Further settings: what MuJoCo ships, what its documentation advises, and RK4."""
-Mask = np.ndarray[tuple[int], np.dtype[np.bool_]]
 ROUNDING = 1e-12  # rad, m: below it errors are of rounding
 CLEAR = 10  # times the limit's own error: below it an order is of that
+FEWEST = 3  # samples: a limit that is known for fewer is rough from the start
 KNOWN = 0.1  # of the tolerance: a limit that is not known so well judges nothing
 
 
@@ -75,13 +76,22 @@ class Stepped:
 
 @dataclass(frozen=True)
 class Steps:
-    """A model at its steps: its limit, until when it is judged [s], and each setting."""
+    """A model at its steps: its limit, until when it is judged [s], and each setting.
+
+    late: why it is not judged to the end.
+    """
 
     limit: Limit
     until: float
     settings: Sequence[Stepped]
     note: str = ""
     bars: Mapping[Quantity, float] = field(default_factory=dict[Quantity, float])
+    late: str = ""
+
+    @property
+    def known(self) -> float:
+        """To what the limit is known [rad, m] as far as it is judged."""
+        return _known(self.limit, self.until)
 
     @property
     def times(self) -> Array:
@@ -135,31 +145,42 @@ def steps(
     own, bars = opened.own, opened.bars
     asked = settings_of(own, others, named)
     times = times_of(case, [setting.step for setting in asked])
-    exact, until = limit_and_horizon(opened, times)
+    exact, until, late = limit_and_horizon(opened, times)
     note = PAIRS if apart_by_pairs(own.model) else ""
-    rows = [_stepped(opened, setting, exact, times <= until) for setting in asked]
-    return Steps(exact, until, rows, note, bars)
+    rows = [_stepped(opened, setting, exact, until) for setting in asked]
+    return Steps(exact, until, rows, note, bars, late)
 
 
-def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float]:
-    """Returns the limit, and until when a disturbance of the start stays below every bar [s].
+def _known(exact: Limit, until: float) -> float:
+    return float(exact.errors[np.searchsorted(exact.times, until, side="right") - 1])
 
-    Raises NoLimit.
+
+def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
+    """Returns the limit, until when steps are judged [s], and why not to the end.
+
+    That is until a disturbance of the start exceeds a bar, or until the limit is known too roughly,
+    as far as it is known at all. Raises NoLimit.
     """
     own, bars = opened.own, opened.bars
-    exact = limit(own, times)
+    within = KNOWN * min(bars.values())
+    exact = limit(own, times, within=within)
     start = own.start()
     by = np.random.default_rng(0).choice((-DISTURBED, DISTURBED), own.model.nv)
     start.qpos[:] = moved(own.model, start.qpos, by)
-    other = limit(own, exact.times, start)
-    a, b = (Motion(own, exact.times, each.y) for each in (exact, other))
+    a, b = (Motion(own, exact.times, y) for y in (exact.y, repeated(own, exact, start)))
     off = differences([*bars], a, b)
     ratios = [sizes(values) / bars[quantity] for quantity, values in off.items()]
     far = np.flatnonzero(np.max(ratios, axis=0) > 1.0) if ratios else []
-    return exact, float(exact.times[max(far[0] - 1, 0)] if len(far) else exact.times[-1])
+    end = float(exact.times[-1])
+    horizon = float(exact.times[max(far[0] - 1, 0)]) if len(far) else end
+    known = exact.known_until(within)
+    if known < horizon and known >= exact.times[min(FEWEST, len(exact.times) - 1)]:
+        return exact, known, f"later the limit is known to {exact.error:.0e} only"
+    late = f"later a disturbance of {DISTURBED:g} exceeds a tolerance" if horizon < end else ""
+    return exact, horizon, late
 
 
-def _stepped(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> Stepped:
+def _stepped(opened: Opened, setting: Setting, exact: Limit, until: float) -> Stepped:
     own, bars = opened.own, opened.bars
     off: dict[float, dict[Quantity, Array]] = {}
     y: Array | None = None
@@ -171,7 +192,7 @@ def _stepped(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> St
             break
         y = samples if k == 1.0 else y
         off[h] = differences([*bars], wanted, Motion(own, exact.times, samples))
-    errors = {quantity: _error(quantity, off, setting, exact, judged, bars) for quantity in bars}
+    errors = {quantity: _error(quantity, off, setting, exact, until, bars) for quantity in bars}
     return Stepped(setting, y, errors)
 
 
@@ -180,19 +201,20 @@ def _error(
     off: Mapping[float, Mapping[Quantity, Array]],
     setting: Setting,
     exact: Limit,
-    judged: Mask,
+    until: float,
     bars: Mapping[Quantity, float],
 ) -> Error:
+    judged, known = exact.times <= until, _known(exact, until)
     ladder = {h: by_quantity[quantity][judged] for h, by_quantity in off.items()}
     at_own = ladder.get(setting.step)
     over_time = None if at_own is None else np.asarray(sizes(at_own))
     if not ladder:
         return Error(over_time, None)
-    floor = max(CLEAR * exact.error, ROUNDING)
+    floor = max(CLEAR * known, ROUNDING)
     bar = bars[quantity]
     largest = {h: float(np.max(sizes(errors))) for h, errors in ladder.items()}
     clear = {h: errors for h, errors in ladder.items() if largest[h] > floor}
-    sure = instants(largest, bar - exact.error)  # of a rough limit less is known to be within
+    sure = instants(largest, bar - known)  # of a rough limit less is known to be within
     if not clear:
         return Error(over_time, sure)
     zero = np.zeros_like(next(iter(clear.values())))

@@ -90,11 +90,9 @@ def model_lines(model: Modelled) -> Iterator[str]:
 def _steps(model: Modelled, steps: Steps) -> Iterator[str]:
     end, limit = float(steps.limit.times[-1]), steps.limit
     yield f"  {model.started}, over {end:.3g} s, at {len(limit.times)} samples"
-    yield f"  its limit for h → 0 by {limit.method}, known to {limit.error:.0e} rad or m"
-    if steps.until < end:
-        yield (
-            f"  judged until {steps.until:.3g} s: later a disturbance of 1e-9 exceeds the tolerance"
-        )
+    yield f"  its limit for h → 0 by {limit.method}, known to {steps.known:.0e} rad or m"
+    if steps.late:
+        yield f"  judged until {steps.until:.3g} s: {steps.late}"
     if steps.note:
         yield f"  no finer steps: {steps.note}"
     yield ""

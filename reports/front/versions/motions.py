@@ -73,7 +73,7 @@ def _of_model(case: ModelCase, releases: Sequence[Measured]) -> Iterator[str]:
         yield f"{case.name}: nothing moves"
         return
     try:
-        limit, until = limit_and_horizon(ready, times)
+        limit, until, _ = limit_and_horizon(ready, times)
         exact = Motion(own, limit.times, limit.y)
         judged = f"and until {until:.3g} s" if until < times[-1] else f"over {times[-1]:.3g} s"
         yield f"{case.name}: each at its own step, the limit by MuJoCo {VERSION}, {judged}"

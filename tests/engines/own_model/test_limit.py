@@ -140,7 +140,8 @@ def test_a_stiff_servo_is_integrated_by_an_implicit_method() -> None:
 
 
 TWO_KINDS = """\
-<mujoco><option timestep="0.004"/><worldbody><geom type="plane" size="1 1 1"/>
+<mujoco><option timestep="0.004"/><worldbody>
+<geom type="plane" size="1 1 1" solref=".001 1"/>
 <body pos="0 0 .102"><freejoint name="ball"/><geom size=".1" mass="1" solref=".001 1"/></body>
 <body pos="1 0 .102"><freejoint name="other"/><geom size=".1" mass="1"/></body></worldbody>
 <keyframe><key qpos="0 0 .102 1 0 0 0 1 0 .102 1 0 0 0"/></keyframe></mujoco>"""

@@ -7,7 +7,7 @@ import pytest
 
 from textmech.cases.fields.number import Amount
 from textmech.cases.fields.signal import Signal
-from textmech.cases.mistake import CaseError, Source
+from textmech.cases.mistake import CaseError, Path, Source
 from textmech.cases.model_case import JOINTS, ModelCase, ModelStart, RandomRates, of_model
 from textmech.engines.own_model.opened import opened
 from textmech.engines.own_model.quantities import Motion, differences, quantities
@@ -100,7 +100,11 @@ def test_bars_are_of_all_joints_and_of_names() -> None:
 def test_an_unknown_name_is_told_at_its_place(
     changes: dict[str, object], where: str, told: str
 ) -> None:
-    places = {("initial",): (2, 1), ("control",): (3, 1), ("allow",): (4, 1)}
+    places: dict[Path, tuple[int, int]] = {
+        ("initial",): (2, 1),
+        ("control",): (3, 1),
+        ("allow",): (4, 1),
+    }
     source = Source("robot.yaml", ("", "", "", ""), places)
     with pytest.raises(CaseError) as error:
         opened(case_of(source=source, **changes))

@@ -190,6 +190,7 @@ def test_a_rough_limit_judges_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no integrator comes through, its own small steps stand for the limit."""
     monkeypatch.setattr(ours, "LEAST", 10)
     monkeypatch.setattr(ours, "MOST", 10)
+    monkeypatch.setattr(limits, "MOST_STEPS", 0)
     rough = stepped(ACROBOT.replace('integrator="RK4"', ""), tolerance=1e-6)
     assert rough.limit.method == "small steps"
     assert all(each.keeps is None for each in rough.settings)
