@@ -138,7 +138,7 @@ def steps(
     exact = limit(own, times)
     until = _horizon(opened, exact)
     note = PAIRS if apart_by_pairs(own.model) else ""
-    rows = [_stepped(opened, setting, exact, times <= until) for setting in asked]
+    rows = [in_setting(opened, setting, exact, times <= until) for setting in asked]
     return Steps(exact, until, rows, note, bars)
 
 
@@ -156,7 +156,8 @@ def _horizon(opened: Opened, exact: Limit) -> float:
     return float(exact.times[max(far[0] - 1, 0)] if len(far) else exact.times[-1])
 
 
-def _stepped(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> Stepped:
+def in_setting(opened: Opened, setting: Setting, exact: Limit, judged: Mask) -> Stepped:
+    """Returns how far off a setting is from the limit at each rung of its ladder."""
     own, bars = opened.own, opened.bars
     off: dict[float, dict[Quantity, Array]] = {}
     y: Array | None = None
