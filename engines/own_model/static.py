@@ -19,7 +19,7 @@ SHORT = 2.0  # steps of a time constant: below it `refsafe` writes another law
 APART = 1e3  # of two neighbours' M_eff: three digits of each acceleration are the other joint's
 FAST = 1.0  # kp h² / M_eff: a servo's period is below 2π steps
 OBJECT, DISABLED = mujoco.mjtObj, mujoco.mjtDisableBit
-ALONE = (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE)
+ALONE = (int(mujoco.mjtJoint.mjJNT_SLIDE), int(mujoco.mjtJoint.mjJNT_HINGE))
 
 
 @dataclass(frozen=True)
@@ -77,8 +77,11 @@ def _explicit(m: mujoco.MjModel, kv: float) -> str:
     return f"{name} damps {'the joint' if held else 'nothing'} implicitly, and no servo"
 
 
-def short_times(own: OwnModel) -> list[tuple[str, float]]:
-    """Returns the elements whose time constant [s] `refsafe` raises to two steps, with it."""
+def short_times(own: OwnModel, step: float | None = None) -> list[tuple[str, float]]:
+    """Returns the elements whose time constant [s] `refsafe` raises to two steps, with it.
+
+    step [s]: by default its own.
+    """
     m, off = own.model, own.model.opt.disableflags
     collides = (m.geom_contype != 0) | (m.geom_conaffinity != 0)
     collides &= not off & DISABLED.mjDSBL_CONTACT
@@ -88,7 +91,7 @@ def short_times(own: OwnModel) -> list[tuple[str, float]]:
         (OBJECT.mjOBJ_JOINT, "limit of joint", m.jnt_solref[:, 0], m.jnt_limited != 0),
         (OBJECT.mjOBJ_EQUALITY, "equality", m.eq_solref[:, 0], m.eq_active0 != 0),
     ):
-        least = 0.0 if off & DISABLED.mjDSBL_REFSAFE else SHORT * m.opt.timestep
+        least = 0.0 if off & DISABLED.mjDSBL_REFSAFE else SHORT * (step or m.opt.timestep)
         for i in map(int, np.flatnonzero((times > 0) & (times < least) & acts)):
             found.append((f"{word} {named(m, kind, i)}", float(times[i])))
     return found

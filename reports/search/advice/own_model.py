@@ -6,6 +6,7 @@ Static numbers say where to look, and stand beside what a run has shown; alone t
 import copy
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from math import inf
 
 import numpy as np
@@ -47,6 +48,7 @@ SOLVER: Mapping[str, str | int | float] = {
     "solver": "Newton", "iterations": 100, "ls_iterations": 50, "tolerance": 1e-8,
 }  # fmt: skip
 """MuJoCo's defaults: whoever has less may lack them."""
+OF_STIFF = "recommended"  # the setting that is tried beside its own where the model is changed
 FURTHER = 0.3  # rad, m: by how much targets are moved, to see what rest hides
 ARRIVES = 0.5  # of what its own steps stay short: its own equations bring it nearer than that
 LATE = 0.9  # of a run: what shakes until then shakes on
@@ -58,7 +60,8 @@ class Recipe:
 
     ratio: the worst error over what is allowed, of a quantity; None: it diverges. keeps: the step
     [s] from which on errors fit into that with the margin; None: no step that was tried. moves: how
-    far a change of the model moves the model's own equations.
+    far a change of the model moves the model's own equations; then: what with it costs least
+    within the bars.
     """
 
     change: str
@@ -70,6 +73,7 @@ class Recipe:
     keeps: float | None
     lines: Sequence[str]
     moves: str = ""
+    then: "Recipe | None" = None
 
 
 @dataclass(frozen=True)
@@ -193,23 +197,24 @@ def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     seen = _seen(asked, exact, result.until)
     coarsest = _coarsest(asked, result, [first, *others[: len(named)]])
     usable = [recipe for recipe in coarsest if recipe.keeps]
+    own_ratio = inf if told.own.ratio is None else told.own.ratio
+    if not seen and not any((recipe.ratio or inf) < ARRIVES * own_ratio for recipe in coarsest):
+        return replace(told, because="finer steps come no nearer to its limit")
     cures: list[Recipe] = []
-    if seen or told.own.ratio is None or told.own.ratio > 1:
+    if seen or own_ratio > 1:
         at_own = [each for each in others if (each.keeps or 0.0) >= h]
         cures += [_recipe(asked, each, h) for each in at_own]
         cures += [recipe for recipe in usable if recipe.integrator == mine and recipe.step < h]
     for kind in changes(asked.case, own, _simple(own, seen)):
-        tried = (_changed(asked, change, result, named) for change in kind)
-        if cured := next((found for found in tried if found), None):
-            cures.append(cured[0])
-            usable += cured[1] if not usable else ()
+        tried = (_changed(asked, change, result) for change in kind)
+        cures += [*islice(filter(None, tried), 1)]
     return replace(
         told,
         seen=[*seen.values(), *_softened(asked, result)],
         suspected=[each.words for each in suspected if each.dof in seen],
         coarsest=coarsest,
         cures=cures,
-        cheapest=min(usable, key=lambda recipe: (recipe.cost, len(recipe.lines)), default=None),
+        cheapest=_cheapest(usable),
     )
 
 
@@ -247,42 +252,66 @@ def _recipe(asked: _Asked, stepped: Stepped, step: float) -> Recipe:
 
 
 def _coarsest(asked: _Asked, result: Steps, rows: Sequence[Stepped]) -> list[Recipe]:
-    """Returns for each row its coarsest step within the bars, or the finest that was tried."""
-    if not any(row.keeps for row in rows) and not apart_by_pairs(asked.own.model):
-        judged = result.limit.times <= result.until
-        finer = [replace(row.setting, step=row.setting.step / FINE) for row in rows]
-        rows = [in_setting(asked.opened, setting, result.limit, judged) for setting in finer]
-    finest = [min([h for e in row.errors.values() if e.ladder for h in e.ladder.errors],
-                  default=row.setting.step) for row in rows]  # fmt: skip
-    return [_recipe(asked, row, row.keeps or h) for row, h in zip(rows, finest, strict=True)]
+    """Returns for each row its coarsest step within the bars, or the finest that was tried.
+
+    Steps below the ladder are tried where they may cost less than what keeps the bars.
+    """
+    recipes = [_recipe(asked, row, _step(asked, row)) for row in rows]
+    if apart_by_pairs(asked.own.model):
+        return recipes
+    judged = result.limit.times <= result.until
+    for k in np.argsort([recipe.cost for recipe in recipes]):
+        recipe, best = recipes[k], _cheapest(recipes)
+        if recipe.keeps is None and (best is None or 2 * recipe.cost < best.cost):
+            setting = replace(rows[k].setting, step=rows[k].setting.step / FINE)
+            finer = in_setting(asked.opened, setting, result.limit, judged)
+            recipes[k] = _recipe(asked, finer, _step(asked, finer))
+    return recipes
 
 
-def _changed(
-    asked: _Asked, change: Changed, before: Steps, named: Sequence[Setting]
-) -> tuple[Recipe, list[Recipe]] | None:
-    """Returns a change that cures at the model's own step, and what then keeps the bars; or None.
+def _step(asked: _Asked, row: Stepped) -> float:
+    """Returns the coarsest step [s] that keeps the bars, or the finest that was tried.
+
+    None at which `refsafe` raises what it leaves at the model's own: another motion may touch it.
+    """
+    tried = {h for error in row.errors.values() if error.ladder for h in error.ladder.errors}
+    if not tried:
+        return row.setting.step
+    raised = short_times(asked.own)
+    usable = [h for h in tried if row.keeps and h <= row.keeps and (
+        h <= asked.own.model.opt.timestep or short_times(asked.own, h) == raised)]  # fmt: skip
+    return max(usable, default=min(tried))
+
+
+def _cheapest(recipes: Sequence[Recipe]) -> Recipe | None:
+    """Returns the one of least cost that keeps its bars; of equals the one that writes less."""
+    usable = [recipe for recipe in recipes if recipe.keeps]
+    return min(usable, key=lambda each: (each.cost, len(str(each.lines))), default=None)
+
+
+def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
+    """Returns a change if it cures at the model's own step.
 
     What it is compared with is its own limit: it has equations of its own.
     """
-    new = replace(asked, own=change.own)
+    new, m = replace(asked, own=change.own), asked.own.model
     moved = motion(new.own, before.until)
     if moved is None or shaking(new.own, *moved, new.joints):
         return None
-    result = steps(asked.case, new.opened, (), named)
+    result = steps(asked.case, new.opened, (OF_STIFF,))
     if _seen(new, result.limit, result.until):
         return None
-    m, both = asked.own.model, min(before.until, result.until)
-    off = np.abs(apart(m, before.limit.q, result.limit.q))[before.limit.times <= both].max(axis=0)
-    name, unit = joint_of(m, int(np.argmax(off / asked.joints)))
-    moves = f"{name} by up to {off.max():.2g} {unit}"
-
-    def with_change(recipe: Recipe) -> Recipe:
-        words = ", ".join(filter(None, [change.words, recipe.change]))
-        return replace(recipe, change=words, lines=[*change.lines, *recipe.lines], moves=moves)
-
-    coarsest = _coarsest(new, result, result.settings)
-    cure = with_change(_recipe(new, result.settings[0], new.own.model.opt.timestep))
-    return cure, [with_change(recipe) for recipe in coarsest if recipe.keeps]
+    both = before.limit.times <= min(before.until, result.until)
+    off = np.abs(apart(m, before.limit.q, result.limit.q))[both].max(axis=0)
+    k = int(np.argmax(off / asked.joints))
+    name, unit = joint_of(m, k)
+    return replace(
+        _recipe(new, result.settings[0], m.opt.timestep),
+        change=change.words,
+        lines=change.lines,
+        moves=f"{name} by up to {off[k]:.2g} {unit}",
+        then=_cheapest(_coarsest(new, result, result.settings)),
+    )
 
 
 def _seen(asked: _Asked, exact: Limit, until: float) -> dict[int | None, str]:
