@@ -147,7 +147,7 @@ def steps(
     times = times_of(case, [setting.step for setting in asked])
     exact, until, late = limit_and_horizon(opened, times)
     note = PAIRS if apart_by_pairs(own.model) else ""
-    rows = [_stepped(opened, setting, exact, until) for setting in asked]
+    rows = [in_setting(opened, setting, exact, until) for setting in asked]
     return Steps(exact, until, rows, note, bars, late)
 
 
@@ -180,7 +180,8 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
     return exact, horizon, late
 
 
-def _stepped(opened: Opened, setting: Setting, exact: Limit, until: float) -> Stepped:
+def in_setting(opened: Opened, setting: Setting, exact: Limit, until: float) -> Stepped:
+    """Returns how far off a setting is from the limit at each rung of its ladder."""
     own, bars = opened.own, opened.bars
     off: dict[float, dict[Quantity, Array]] = {}
     y: Array | None = None

@@ -11,8 +11,19 @@ import click
 from ....cases.mistake import CaseError, Mistake
 from ..show.console import say, tell
 from .done import DONE, finished
-from .looking import tell_spaces
-from .options import Finite, Folder, allow_long, as_json, jobs, named_engines, no_cache, overwrite
+from .looking import left_out, tell_spaces
+from .options import (
+    BAD_INPUT,
+    Finite,
+    Folder,
+    allow_long,
+    as_json,
+    jobs,
+    named_engines,
+    no_cache,
+    overwrite,
+)
+from .own_advice import advised_models, lines
 
 if TYPE_CHECKING:
     from ...search.advice.advice_rows import Advised
@@ -79,12 +90,18 @@ def advise(
     your own, and as a file of --settings. Then how cost falls with error over all that was tried.
     Where nothing does it, what remains, and the nearest; Ctrl-C ends with the nearest so far.
 
+    Of MJCF or URDF files: what a person sees at the model's own step and not of its own equations,
+    the smallest changes that cure it, and the coarsest step of each integrator, with what to write
+    into which element. --tolerance is in rad and m of all joints there.
+
     \b
+      textmech advise robot.xml                         a model of your own
       textmech advise my_case.yaml                      your own mechanism, every engine
       textmech advise four_bar --engine mujoco --tolerance 1e-3
       textmech advise --all                             the committed reports/advice.csv
     """
     from ...runs.cache import store
+    from ...runs.models import Chosen, choose_models
     from ...runs.request import requested
     from ...runs.selection import choose_cases
     from ...search.advice.advice_rows import Requirement, rows
@@ -101,29 +118,46 @@ def advise(
         out = Folder().convert(str(write.by_default()), None, None)
     if out is not None:
         unasked(out, [write.ADVICE], overwrite=overwrite)
-    chosen = choose_cases(cases, long=allow_long)
+    models = choose_models(cases, long=allow_long) if cases else Chosen((), (), ())
+    if models.cases and out is not None:
+        raise click.UsageError("--out holds what is advised of cases, and these are models")
+    chosen = choose_cases(models.others, long=allow_long) if every or models.others else []
     tell_spaces(chosen)
-    request = requested(chosen, _without_setting(names), ["shipped"], named=False)
+    request = requested(
+        chosen, _without_setting(names), ["shipped"], named=False, models=models.cases,
+        mistakes=models.mistakes,
+    )  # fmt: skip
     if request.mistakes:
         raise CaseError(request.mistakes)
     used = None if no_cache else store.usable()
     front, table = not (every or wants_json), list[Advice]()
     listener = Listener(partial(_say, shipped_lines), partial(_say, stopped_lines))
     with progress.progress() as shown, finished(used is not None):
-        for each in [None, PART] if every and tolerance is None else [tolerance]:
+        means = replace(request, jobs=jobs, progress=shown, store=used)
+        own, mistakes = advised_models(means, tolerance, margin) if models.cases else ([], [])
+        for line in (line for one in own for line in lines(one) if not wants_json):
+            say(line)
+        tolerances = [None, PART] if every and tolerance is None else [tolerance]
+        for each in tolerances if chosen else ():
             asked = Requirement(each, margin, front=front)
-            means = replace(request, jobs=jobs, progress=shown, store=used)
             with advised(means, asked, listener if front else None) as found:
                 for one in found:
                     table += rows(one)
                     for line in advice_lines(one) if front else ():
                         say(line)
         if wants_json:
-            document.write({"advice": [asdict(row) for row in table], "exit_code": 0})
+            code = BAD_INPUT if mistakes else 0
+            told = {"advice": [asdict(row) for row in table], "exit_code": code}
+            told |= {"models": [asdict(one) for one in own]} if models.cases else {}
+            told |= {"mistakes": document.mistakes(mistakes)} if mistakes else {}
+            document.write(told)
     if out is not None:
         write.advice(table, out, overwrite=overwrite)
         DONE.append(f"the advice is in {out}")
         tell(f"{len(table)} rows written to {out / write.ADVICE}")
+    if mistakes:
+        tell(left_out(mistakes))
+        raise click.exceptions.Exit(BAD_INPUT)
 
 
 def _say(lines: "Callable[[Advised], Iterator[str]]", advice: "Sequence[Advised]") -> None:

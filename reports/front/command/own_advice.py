@@ -1,0 +1,126 @@
+"""Advice on models of the user's own, in lines."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ....cases.mistake import CaseError, plain
+from ...tables.short_numbers import factor, milliseconds
+
+if TYPE_CHECKING:
+    from ....cases.mistake import Mistake
+    from ....cases.model_case import ModelCase
+    from ...runs.request import Request
+    from ...search.advice.own_model import OwnAdvice, Recipe, Tried
+
+
+@dataclass(frozen=True)
+class Task:
+    """A model's case, what its joints may be off [rad, m] (None: as it allows), and a margin."""
+
+    case: "ModelCase"
+    tolerance: float | None
+    margin: float
+
+    @property
+    def name(self) -> str:
+        """For whoever waits for it."""
+        return self.case.name
+
+    @property
+    def limit(self) -> float:
+        """How long it may take [s]."""
+        from ....cases.language.check.work import LIMIT
+
+        return LIMIT
+
+
+def done(task: Task) -> "OwnAdvice | CaseError":
+    """Returns the advice on a model, or its mistakes."""
+    from ...search.advice.own_model import advised
+
+    try:
+        return advised(task.case, task.tolerance, task.margin)
+    except CaseError as error:
+        return error
+
+
+def advised_models(
+    request: "Request", tolerance: float | None, margin: float
+) -> "tuple[list[OwnAdvice], list[Mistake]]":
+    """Returns the advice on a request's models, each in a process of its own, and the mistakes."""
+    from ...runs.processes.pool import Died
+    from ...search.advice.own_model import OwnAdvice
+
+    tasks = {str(k): Task(case, tolerance, margin) for k, case in enumerate(request.models)}
+    advice: list[OwnAdvice] = []
+    mistakes: list[Mistake] = []
+    with request.results(len(tasks)) as results:
+        answers = results.anew("models", done, tasks)
+    for index in sorted(answers, key=int):
+        answer, case = answers[index], tasks[index].case
+        if isinstance(answer, Died):
+            answer = OwnAdvice(case.name, "", margin, (), answer.because)
+        elif isinstance(answer, CaseError) and case.in_folder:
+            because = "; ".join(mistake.what for mistake in answer.mistakes)
+            answer = OwnAdvice(case.name, "", margin, (), because)
+        if isinstance(answer, CaseError):
+            mistakes += answer.mistakes
+        else:
+            advice.append(answer)
+    return advice, mistakes
+
+
+def lines(advice: "OwnAdvice") -> Iterator[str]:
+    """Yields the advice on a model, line by line; what a person sees comes first."""
+    yield ""
+    yield plain(f"{advice.case}: {advice.model}" if advice.model else advice.case)
+    if advice.because:
+        yield plain(f"  nothing is advised: {advice.because}")
+    for tried in advice.tried:
+        yield from map(plain, _tried(tried, advice.margin))
+
+
+def _tried(tried: "Tried", margin: float) -> Iterator[str]:
+    yield f"  {tried.started}, judged until {tried.until:.3g} s; its limit by {tried.limit}"
+    yield from (f"    {sentence}" for sentence in tried.seen)
+    yield from (f"      {number}" for number in tried.suspected)
+    own = tried.own
+    setting = f"{own.integrator}, {milliseconds(own.step)}"
+    yield f"    its own setting, {setting}: {_off(own)}"
+    if tried.because:
+        yield f"    nothing is advised: {tried.because}"
+        return
+    if tried.cures:
+        yield "    what cures"
+    for cure in tried.cures:
+        yield f"      {cure.change}: {_price(cure)}"
+        yield from (f"        {line}" for line in cure.lines)
+        if cure.then and cure.then.change:
+            yield f"        then {cure.then.change} keeps all: {_price(cure.then)}"
+            yield from (f"          {line}" for line in cure.then.lines)
+    yield f"    the coarsest step that keeps all within its tolerance / {margin:g}"
+    for recipe in tried.coarsest:
+        if recipe.keeps is None:
+            yield f"      {recipe.integrator:13} none down to {milliseconds(recipe.step)}"
+        else:
+            yield f"      {recipe.integrator:13} {milliseconds(recipe.step):9} {_price(recipe)}"
+    best = tried.cheapest
+    if best is None:
+        yield "    no setting keeps it"
+    elif best.change:
+        yield f"    the cheapest: {best.change}, ×{best.cost:.2g} of its own cost"
+        yield from (f"      {line}" for line in best.lines)
+    else:
+        yield "    the cheapest: its own setting"
+
+
+def _price(recipe: "Recipe") -> str:
+    moves = f"; its own equations then move {recipe.moves} otherwise" if recipe.moves else ""
+    return f"costs ×{recipe.cost:.2g}, {_off(recipe)}{moves}"
+
+
+def _off(recipe: "Recipe") -> str:
+    if recipe.ratio is None:
+        return "diverges"
+    return f"{recipe.quantity} {factor(recipe.ratio)} of what is allowed"

@@ -1,0 +1,382 @@
+"""Advice on a user's model, by experiment: what a person sees, what cures it, what costs least.
+
+Static numbers say where to look, and stand beside what a run has shown; alone they say nothing.
+"""
+
+import copy
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from math import inf
+
+import numpy as np
+
+from ....cases.fields.number import Amount
+from ....cases.model_case import JOINTS, ModelCase, ModelStart
+from ....cases.trajectory import Array
+from ....engines.own_model.changed import Changed, changes, option
+from ....engines.own_model.limit import INTEGRATORS, WORDS, Limit, NoLimit, apart_by_pairs, limit
+from ....engines.own_model.model import OwnModel, apart
+from ....engines.own_model.opened import Opened, opened
+from ....engines.own_model.quantities import Quantity
+from ....engines.own_model.seen import (
+    diverges,
+    joint_of,
+    motion,
+    servos,
+    shaking,
+    short_of_target,
+)
+from ....engines.own_model.static import ALONE, SHORT, Suspicion, short_times, suspicions
+from ...compare.own_steps import (
+    KNOWN,
+    OWN,
+    Setting,
+    Stepped,
+    Steps,
+    in_setting,
+    integrator_of,
+    steps,
+)
+from ...tables.short_numbers import milliseconds
+
+EVALUATIONS = {"Euler": 1.0, "implicitfast": 1.0, "implicit": 1.6, "RK4": 3.7}
+"""What a step costs beside Euler's: 0.9–1.05, 1.3–2.3, 3.5–3.9 of its time in seven models, nv 3 to
+27. A number, so that advice is the same wherever it is given."""
+FINE = 8  # parts of its own step from which a second ladder begins, where no setting keeps the bars
+SOLVER: Mapping[str, str | int | float] = {
+    "solver": "Newton", "iterations": 100, "ls_iterations": 50, "tolerance": 1e-8,
+}  # fmt: skip
+"""MuJoCo's defaults: whoever has less may lack them."""
+OF_STIFF = "recommended"  # the setting that is tried beside its own where the model is changed
+FURTHER = 0.3  # rad, m: by how much targets are moved, to see what rest hides
+ARRIVES = 0.5  # of what its own steps stay short: its own equations bring it nearer than that
+LATE = 0.9  # of a run: what shakes until then shakes on
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A way to step a model: what changes, its cost over the model's own, and what to write.
+
+    ratio: the worst error over what is allowed, of a quantity; None: it diverges. keeps: the step
+    [s] from which on errors fit into that with the margin; None: no step that was tried. moves: how
+    far a change of the model moves the model's own equations; then: what with it costs least
+    within the bars.
+    """
+
+    change: str
+    integrator: str
+    step: float
+    cost: float
+    ratio: float | None
+    quantity: str
+    keeps: float | None
+    lines: Sequence[str]
+    moves: str = ""
+    then: "Recipe | None" = None
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A motion of a model: what is seen of it, why that was suspected, and what helps.
+
+    coarsest: by integrator. cures: the smallest first. because: why nothing is advised.
+    """
+
+    started: str
+    limit: str
+    until: float
+    own: Recipe
+    seen: Sequence[str] = ()
+    suspected: Sequence[str] = ()
+    coarsest: Sequence[Recipe] = ()
+    cures: Sequence[Recipe] = ()
+    cheapest: Recipe | None = None
+    because: str = ""
+
+
+@dataclass(frozen=True)
+class OwnAdvice:
+    """The advice on a model, one for each experiment; because: why there is none."""
+
+    case: str
+    model: str
+    margin: float
+    tried: Sequence[Tried]
+    because: str = ""
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A case opened, its bars as they are allowed, and how often errors have to fit into them."""
+
+    case: ModelCase
+    own: OwnModel
+    allowed: Mapping[Quantity, float]
+    margin: float
+
+    @property
+    def opened(self) -> Opened:
+        """The model with bars in which errors fit with the margin."""
+        return Opened(self.own, {q: bar / self.margin for q, bar in self.allowed.items()})
+
+    @property
+    def joints(self) -> Array:
+        """(n,) [rad, m] what each velocity's joint may be off; where nobody bounds it the least."""
+        each = np.full(self.own.model.nv, min(self.allowed.values()))
+        for quantity, bar in self.allowed.items():
+            if quantity.of == "joint":
+                each[quantity.first : quantity.first + quantity.wide] = bar
+        return each
+
+
+def advised(case: ModelCase, tolerance: float | None, margin: float) -> OwnAdvice:
+    """Returns the advice on a model. Raises CaseError if it does not compile.
+
+    tolerance [rad, m]: of all joints; None: what the case allows.
+    """
+    if tolerance is not None:
+        case = replace(case, allow={JOINTS: Amount(tolerance)})
+    ready = opened(case)
+    own, told = ready.own, str(ready.own)
+    if not own.model.nv:
+        return OwnAdvice(case.name, told, margin, (), "nothing moves")
+    suspected = suspicions(own)
+    asked = _Asked(case, own, ready.bars, margin)
+    try:
+        tried = [_tried(asked, suspected)]
+        further = _further(asked, suspected)
+        if further and not tried[0].seen and _would_be_seen(further):
+            moved = _tried(further, suspected)
+            tried += [moved] if moved.seen else []
+    except NoLimit as error:
+        return OwnAdvice(case.name, told, margin, (), f"no limit: {error}")
+    return OwnAdvice(case.name, told, margin, tried)
+
+
+def _further(asked: _Asked, suspected: Sequence[Suspicion]) -> _Asked | None:
+    """Returns a model without a motion of its own with the targets of its servos moved."""
+    own, start = asked.own, asked.own.start()
+    targets = servos(own)
+    suspects = {suspicion.dof for suspicion in suspected}
+    if asked.case.control or asked.case.initial != ModelStart() or not suspects & {*targets}:
+        return None
+    for k, servo in targets.items():
+        by = FURTHER * -servo.bias[1] / servo.gain[0] * servo.moments[k]
+        beyond = not servo.control[0] <= start.ctrl[servo.u] + by <= servo.control[1]
+        start.ctrl[servo.u] = np.clip(start.ctrl[servo.u] + (-by if beyond else by), *servo.control)
+    begins = f"{own.started.removeprefix('from ')}, each servo's target {FURTHER} rad or m further"
+    return replace(asked, own=replace(own, begun=start, begins=begins))
+
+
+def _would_be_seen(asked: _Asked) -> bool:
+    """Whether at its own steps anything diverges, or at the end shakes or stays far off."""
+    moved = motion(asked.own, asked.case.duration)
+    if moved is None:
+        return True
+    times, y = moved
+    shakes = shaking(asked.own, times, y, asked.joints)
+    short = short_of_target(asked.own, float(times[-1]), y[-1])
+    late = any(shake.ends >= LATE * times[-1] for shake in shakes.values())
+    return late or any(off > asked.joints[k] for k, off in short.items())
+
+
+def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
+    own, h = asked.own, asked.own.model.opt.timestep
+    mine = integrator_of(own, Setting(OWN, {}, h))
+    named = [Setting(i, {"integrator": i}, h) for i in INTEGRATORS if i != mine]
+    less = {name: value for name, value in SOLVER.items() if _less(own, name, value)}
+    solver = [Setting("solver", less, h)] if less else []
+    result = steps(asked.case, asked.opened, (), [*named, *solver])
+    exact = result.limit
+    first, *others = result.settings
+    known = f"{exact.method}, known to {result.known:.0e} rad or m"
+    told = Tried(own.started, known, result.until, _recipe(asked, first, h))
+    if result.known > KNOWN * min(asked.allowed.values()):
+        return replace(told, because="its limit is not known well enough to judge steps")
+    seen = _seen(asked, exact, result.until)
+    coarsest = _coarsest(asked, result, [first, *others[: len(named)]])
+    usable = [recipe for recipe in coarsest if recipe.keeps]
+    own_ratio = inf if told.own.ratio is None else told.own.ratio
+    if not seen and not any((recipe.ratio or inf) < ARRIVES * own_ratio for recipe in coarsest):
+        return replace(told, because="finer steps come no nearer to its limit")
+    cures: list[Recipe] = []
+    if seen or own_ratio > 1:
+        at_own = [each for each in others if (each.keeps or 0.0) >= h]
+        cures += [_recipe(asked, each, h) for each in at_own]
+        cures += [recipe for recipe in usable if recipe.integrator == mine and recipe.step < h]
+    for kind in changes(asked.case, own, _simple(own, seen)):
+        tried = (_changed(asked, change, result) for change in kind)
+        cures += [*islice(filter(None, tried), 1)]
+    return replace(
+        told,
+        seen=[*seen.values(), *_softened(asked, result)],
+        suspected=[each.words for each in suspected if each.dof in seen],
+        coarsest=coarsest,
+        cures=cures,
+        cheapest=_cheapest(usable),
+    )
+
+
+def _less(own: OwnModel, name: str, value: float | str) -> bool:
+    """Whether the model's own solver has fewer iterations, or stops earlier, than that."""
+    has = getattr(own.model.opt, name)
+    if isinstance(value, str):
+        return has != WORDS[name][value]
+    return has > value if name == "tolerance" else has < value
+
+
+def _recipe(asked: _Asked, stepped: Stepped, step: float) -> Recipe:
+    own, setting = asked.own, stepped.setting
+    h, mine = own.model.opt.timestep, integrator_of(own, Setting(OWN, {}))
+    ratios = {
+        quantity: (error.ladder.errors.get(step, inf) if error.ladder else inf) / bar
+        for (quantity, bar), error in zip(
+            asked.allowed.items(), stepped.errors.values(), strict=True
+        )
+    }
+    worst = max(ratios, key=lambda quantity: ratios[quantity])
+    integrator = integrator_of(own, setting)
+    written = ({} if step == h else {"timestep": step}) | dict(setting.options)
+    words = [str(v) if k == "integrator" else f"{k} {v}" for k, v in setting.options.items()]
+    return Recipe(
+        ", ".join([*words, *([] if step == h else [milliseconds(step)])]),
+        integrator,
+        step,
+        float(f"{EVALUATIONS[integrator] / step / (EVALUATIONS[mine] / h):.3g}"),
+        ratios[worst] if ratios[worst] < inf else None,
+        worst.name,
+        stepped.keeps,
+        option(written),
+    )
+
+
+def _coarsest(asked: _Asked, result: Steps, rows: Sequence[Stepped]) -> list[Recipe]:
+    """Returns for each row its coarsest step within the bars, or the finest that was tried.
+
+    Steps below the ladder are tried where they may cost less than what keeps the bars.
+    """
+    recipes = [_recipe(asked, row, _step(asked, row)) for row in rows]
+    if apart_by_pairs(asked.own.model):
+        return recipes
+    for k in np.argsort([recipe.cost for recipe in recipes]):
+        recipe, best = recipes[k], _cheapest(recipes)
+        if recipe.keeps is None and (best is None or 2 * recipe.cost < best.cost):
+            setting = replace(rows[k].setting, step=rows[k].setting.step / FINE)
+            finer = in_setting(asked.opened, setting, result.limit, result.until)
+            recipes[k] = _recipe(asked, finer, _step(asked, finer))
+    return recipes
+
+
+def _step(asked: _Asked, row: Stepped) -> float:
+    """Returns the coarsest step [s] that keeps the bars, or the finest that was tried.
+
+    None at which `refsafe` raises what it leaves at the model's own: another motion may touch it.
+    """
+    tried = {h for error in row.errors.values() if error.ladder for h in error.ladder.errors}
+    if not tried:
+        return row.setting.step
+    raised = short_times(asked.own)
+    usable = [h for h in tried if row.keeps and h <= row.keeps and (
+        h <= asked.own.model.opt.timestep or short_times(asked.own, h) == raised)]  # fmt: skip
+    return max(usable, default=min(tried))
+
+
+def _cheapest(recipes: Sequence[Recipe]) -> Recipe | None:
+    """Returns the one of least cost that keeps its bars; of equals the one that writes less."""
+    usable = [recipe for recipe in recipes if recipe.keeps]
+    return min(usable, key=lambda each: (each.cost, len(str(each.lines))), default=None)
+
+
+def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
+    """Returns a change if it cures at the model's own step.
+
+    What it is compared with is its own limit: it has equations of its own.
+    """
+    new, m = replace(asked, own=change.own), asked.own.model
+    moved = motion(new.own, before.until)
+    if moved is None or shaking(new.own, *moved, new.joints):
+        return None
+    result = steps(asked.case, new.opened, (OF_STIFF,))
+    if _seen(new, result.limit, result.until):
+        return None
+    both = before.limit.times <= min(before.until, result.until)
+    off = np.abs(apart(m, before.limit.q, result.limit.q))[both].max(axis=0)
+    k = int(np.argmax(off / asked.joints))
+    name, unit = joint_of(m, k)
+    return replace(
+        _recipe(new, result.settings[0], m.opt.timestep),
+        change=change.words,
+        lines=change.lines,
+        moves=f"{name} by up to {off[k]:.2g} {unit}",
+        then=_cheapest(_coarsest(new, result, result.settings)),
+    )
+
+
+def _seen(asked: _Asked, exact: Limit, until: float) -> dict[int | None, str]:
+    """Returns by velocity what a person sees at its own steps, and not of its own equations."""
+    own, nq = asked.own, asked.own.model.nq
+    moved = motion(own, until)
+    if moved is None:
+        when, dof = diverges(own, until)
+        who = "it" if dof is None else joint_of(own.model, dof)[0]
+        return {dof: f"{who} diverges after {when:.3g} s; its own equations do not"}
+    times, y = moved
+    seen: dict[int | None, str] = {}
+    at_end = exact.times <= until
+    arrives = short_of_target(own, until, exact.y[at_end][-1])
+    short = {
+        k: off
+        for k, off in short_of_target(own, float(times[-1]), y[-1]).items()
+        if off > asked.joints[k] and arrives[k] < ARRIVES * off
+    }
+    shakes = shaking(own, times, y, asked.joints)
+    for k in sorted({*short, *shakes}):
+        name, unit = joint_of(own.model, k)
+        words: list[str] = []
+        if k in shakes:
+            shake = shakes[k]
+            inside = (exact.times >= shake.begins) & (exact.times <= shake.ends)
+            if np.abs(exact.y[inside, nq + k]).max(initial=0.0) < ARRIVES * shake.rate:
+                ends = "" if shake.ends >= LATE * until else f" until {shake.ends:.2g} s"
+                words.append(f"shakes at {shake.rate:#.2g} {unit}/s{ends}")
+        if k in short:
+            words.append(f"stays {short[k]:#.2g} {unit} short of its target")
+        if words:
+            equations = "bring it there" if k in short else "do not"
+            seen[k] = f"{name} {' and '.join(words)}; its own equations {equations}"
+    return seen
+
+
+def _simple(own: OwnModel, seen: Mapping[int | None, str]) -> list[int]:
+    """Returns the velocities among them of joints that turn or shift, and do no more."""
+    kinds = own.model.jnt_type[own.model.dof_jntid]
+    return [k for k in seen if k is not None and kinds[k] in ALONE]
+
+
+def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
+    """Yields what `refsafe` makes otherwise than it is written, if the motion shows it."""
+    raised = short_times(asked.own)
+    if not raised:
+        return
+    model, least = copy.copy(asked.own.model), min(time for _, time in raised) / SHORT
+    model.opt.timestep = least
+    try:
+        written = limit(replace(asked.own, model=model), result.limit.times)
+    except NoLimit:
+        return
+    off = np.abs(apart(model, result.limit.q, written.q))[result.limit.times <= result.until]
+    ratios = off.max(axis=0) / asked.joints
+    k = int(np.argmax(ratios))
+    if off[:, k].max() > asked.joints[k] + result.known + written.error:
+        name, unit = joint_of(model, k)
+        who = ", ".join(
+            [*[element for element, _ in raised[:FEW]], *(["…"] if raised[FEW:] else [])]
+        )
+        yield (
+            f"{who}: softer than written, as solref is raised to 2h: as written {name} moves "
+            f"{off[:, k].max():.2g} {unit} otherwise; {milliseconds(least)} takes it as written"
+        )
+
+
+FEW = 3  # elements by name
