@@ -81,7 +81,7 @@ def short_of_target(own: OwnModel, time: float, y: Array) -> dict[int, float]:
     for k, motor in servos(own).items():
         gear = float(motor.moments[k])
         pull = motor.gain[0] * np.clip(u[motor.u], *motor.control) + motor.bias[0]
-        short[k] = abs(float(pull / -motor.bias[1] / gear - y[motor.places[k]]))
+        short[k] = abs(float(pull / -motor.bias[1] / gear - y[own.tree.places[k]]))
     return short
 
 

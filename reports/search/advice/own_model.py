@@ -198,7 +198,8 @@ def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     coarsest = _coarsest(asked, result, [first, *others[: len(named)]])
     usable = [recipe for recipe in coarsest if recipe.keeps]
     own_ratio = inf if told.own.ratio is None else told.own.ratio
-    if not seen and not any((recipe.ratio or inf) < ARRIVES * own_ratio for recipe in coarsest):
+    nearer = any((recipe.ratio or inf) < ARRIVES * own_ratio for recipe in coarsest)
+    if own_ratio > 1 and not seen and not nearer:
         return replace(told, because="finer steps come no nearer to its limit")
     cures: list[Recipe] = []
     if seen or own_ratio > 1:
