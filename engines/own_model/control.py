@@ -1,4 +1,4 @@
-"""What drives a model: its controls as functions of time."""
+"""The controls of a model as functions of time."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -78,7 +78,7 @@ class Equations:
 
     @property
     def method(self) -> str:
-        """What has integrated the last answer, in words."""
+        """Returns in words how the last answer was integrated."""
         whole = sum(self.over.values())
         shares = [(name, over / whole) for name, over in self.over.items() if over]
         if len(shares) == 1:

@@ -45,7 +45,7 @@ class OwnModel:
 
     @property
     def controls(self) -> Controls:
-        """What drives it in time."""
+        """Its controls as functions of time."""
         return Controls(np.array(self.start().ctrl), self.laws)
 
     @cached_property

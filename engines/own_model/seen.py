@@ -1,4 +1,4 @@
-"""What a person sees of a model's steps: it diverges, a joint shakes, a servo stays short."""
+"""Signs that a person sees of a model: it diverges, a joint shakes, a servo stays short."""
 
 from dataclasses import dataclass
 

@@ -24,6 +24,7 @@ from ...engines.own_space import AnySpace, is_space
 if TYPE_CHECKING:
     import pandas as pd
 
+    from ..runs.request import Request
     from ..runs.task_results import Progress
     from .page.notebook import Drawing
 
@@ -304,7 +305,9 @@ def advise(
     """Which settings cases need: for each case and engine a recipe or two, as rows of advice.csv.
 
     engines: as `mujoco`; all for none. tolerance: of each quantity's own size; None: as the case
-    allows. margin: how often the worst error has to fit into that. Raises CaseError.
+    allows. margin: how often the worst error has to fit into that. Of models, which are asked
+    alone, a row for each thing that cures and for the cheapest; their tolerance is in rad and m.
+    Raises CaseError.
     """
     import pandas as pd
 
@@ -316,7 +319,15 @@ def advise(
     _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
     if not (words := _listed("cases", _given(word), (str, Path, Case))):
         raise CaseError([Mistake("cases", 0, 0, "", "none is named: all of them take very long")])
-    wanted = requested(load(words), _listed("engines", engines, (str,)), ["shipped"])
+    cases = load(words)
+    models = [case for case in cases if isinstance(case, ModelCase)]
+    if models and len(models) < len(cases):
+        what = "is a model: ask for advice on models alone, for their rows are others"
+        raise CaseError([Mistake(model.file, 0, 0, "", what) for model in models])
+    names = _listed("engines", engines, (str,))
+    wanted = requested([] if models else cases, names, ["shipped"], models=models)
+    if models:
+        return _advised_models(replace(wanted, jobs=jobs), tolerance, margin, progress)
     bar = Requirement(tolerance, margin)
     store = usable() if cache else None
     with _aloud(progress) as told:
@@ -326,6 +337,33 @@ def advise(
     if wanted.mistakes:
         raise CaseError(wanted.mistakes)
     return pd.DataFrame(map(vars, found))
+
+
+def _advised_models(
+    request: "Request", tolerance: float | None, margin: float, progress: "Progress | None"
+) -> "pd.DataFrame":
+    import pandas as pd
+
+    from .command.own_advice import advised_models
+
+    with _aloud(progress) as told:
+        advice, mistakes = advised_models(replace(request, progress=told), tolerance, margin)
+    if mistakes:
+        raise CaseError(mistakes)
+    rows = [
+        {"case": each.case, "what": what, "seen": "; ".join(tried.seen), "change": recipe.change,
+         "integrator": recipe.integrator, "step": recipe.step, "cost": recipe.cost,
+         "ratio": recipe.ratio, "quantity": recipe.quantity, "lines": "\n".join(recipe.lines),
+         "because": tried.because}
+        for each in advice
+        for tried in each.tried
+        for what, recipe in [
+            ("own", tried.own),
+            *(("cure", cure) for cure in tried.cures),
+            *([("cheapest", tried.cheapest)] if tried.cheapest else []),
+        ]
+    ]  # fmt: skip
+    return pd.DataFrame(rows)
 
 
 def _in_range(**numbers: tuple[float | None, float]) -> None:

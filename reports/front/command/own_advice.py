@@ -37,10 +37,12 @@ class Task:
 
 def done(task: Task) -> "OwnAdvice | CaseError":
     """Returns the advice on a model, or its mistakes."""
+    from ....engines.mujoco.callbacks.signal import listening
     from ...search.advice.own_model import advised
 
     try:
-        return advised(task.case, task.tolerance, task.margin)
+        with listening():  # what diverges is said in words
+            return advised(task.case, task.tolerance, task.margin)
     except CaseError as error:
         return error
 
