@@ -55,8 +55,8 @@ def choose_models(words: Sequence[str], *, long: bool = False) -> Chosen:
     cases: dict[str, ModelCase] = {}
     for word in words or known:
         try:
-            path = known.get(word.partition(".")[0], Path(word)) if word else Path(word)
-            if path.is_dir():
+            path = known.get(word.partition(".")[0], Path(word))
+            if word and path.is_dir():  # no word is the folder here to Path
                 some = [*_folder(path)]
                 if not some:
                     others.append(word)

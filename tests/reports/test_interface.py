@@ -118,7 +118,10 @@ def test_wrong_options_are_named(options: dict, said: str) -> None:
 LOOP: dict[str, Any] = {}
 LOOP["mujoco"] = LOOP
 WRONG: dict[str, tuple[Callable[[], object], str]] = {
-    "a number for a case": (lambda: load(5), "cases: should be str or Path or Case, or several"),
+    "a number for a case": (
+        lambda: load(5),
+        "cases: should be str or Path or Case or ModelCase, or several",
+    ),
     "no case": (lambda: load(None), "cases: should be str or Path or Case"),
     "one of several is none": (lambda: run(["four_bar", 3]), "cases: should be str or Path"),
     "an empty name": (lambda: load(""), "'': no such case: the name is empty"),
