@@ -2,6 +2,7 @@
 
 import copy
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -20,10 +21,18 @@ FIRST = 1e-6  # s: the first step of the first part at most
 INSTANT = 1e-12  # s: parts shorter than that are of rounding
 MOST, LEAST = 30_000, 400  # accelerations of an answer; a part may cost a quarter of what is left
 CRAWLS = 15  # accelerations of a step of DOP853, which takes 12: more, and it rejects at switches
-ITERATIONS = 200  # of Newton's solver at most
-EXACT = 1e-16  # its tolerance: what 1e-8 leaves is noise that stalls integrators; 0 never stops
 STEPS = "small steps"
 SLIGHT = 1e-6  # of a step: what begins with a step in the clock's rounding begins with it
+
+
+EXACT_SOLVER: Mapping[str, float] = {
+    "solver": int(mujoco.mjtSolver.mjSOL_NEWTON),
+    "iterations": 200,
+    "tolerance": 1e-16,  # what 1e-8 leaves is noise that stalls integrators; 0 never stops
+    "ls_iterations": 50,
+    "ls_tolerance": 0.01,
+}
+"""Options with which constraints are solved to the last digit; a model may have few iterations."""
 
 
 class NoLimit(Exception):
@@ -56,8 +65,8 @@ class Equations:
 
     def __init__(self, own: OwnModel, start: mujoco.MjData) -> None:
         self.model, self.controls = copy.copy(own.model), controls_of(own, start)
-        self.model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
-        self.model.opt.tolerance, self.model.opt.iterations = EXACT, ITERATIONS
+        for name, value in EXACT_SOLVER.items():
+            setattr(self.model.opt, name, value)
         self.fine = copy.copy(self.model)
         self.fine.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         self.start = start
