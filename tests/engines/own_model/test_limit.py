@@ -216,3 +216,22 @@ FALLING = """\
 <body pos=".3 0 0"><joint axis="0 0 1"/><geom type="capsule" size=".05" fromto="0 0 0 .3 0 .1"/>
 </body></body></body></worldbody><keyframe><key qpos="0 0 .06 1 0 0 0 .1 0"
 qvel="1 .5 -.5 1 0 0 0 0"/></keyframe></mujoco>"""
+
+
+@pytest.mark.mutant("an activation without its range")
+def test_an_activation_stays_in_its_range(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = compiled_text(INTEGRATING)
+    wanted = stepped(own, TIMES, "implicitfast", 1e-4)
+    exact = limit(own, TIMES)
+    assert wanted is not None
+    assert exact.y[-1, 2] == pytest.approx(0.2, abs=1e-6)
+    assert np.abs(exact.q - wanted).max() < 1e-3
+    monkeypatch.setattr(ours, "_act_range", lambda m: np.array([[-np.inf], [np.inf]]))
+    assert np.abs(limit(own, TIMES).q - wanted).max() > 0.1
+
+
+INTEGRATING = """\
+<mujoco><option timestep="0.002" gravity="0 0 0"/><worldbody><body>
+<joint name="turns" axis="0 0 1" damping="1"/><geom size=".1" mass="1" pos=".3 0 0"/></body>
+</worldbody><actuator><intvelocity joint="turns" kp="10" kv="1" actrange="-.2 .2"/></actuator>
+<keyframe><key qpos="0" ctrl="1"/></keyframe></mujoco>"""
