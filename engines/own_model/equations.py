@@ -2,6 +2,7 @@
 
 import copy
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -20,10 +21,18 @@ FIRST = 1e-6  # s: the first step of the first part at most
 INSTANT = 1e-12  # s: parts shorter than that are of rounding
 MOST, LEAST = 30_000, 400  # accelerations of an answer; a part may cost a quarter of what is left
 CRAWLS = 15  # accelerations of a step of DOP853, which takes 12: more, and it rejects at switches
-ITERATIONS = 200  # of Newton's solver at most
-EXACT = 1e-16  # its tolerance: what 1e-8 leaves is noise that stalls integrators; 0 never stops
 STEPS = "small steps"
 SLIGHT = 1e-6  # of a step: what begins with a step in the clock's rounding begins with it
+
+
+EXACT_SOLVER: Mapping[str, float] = {
+    "solver": int(mujoco.mjtSolver.mjSOL_NEWTON),
+    "iterations": 200,
+    "tolerance": 1e-16,  # what 1e-8 leaves is noise that stalls integrators; 0 never stops
+    "ls_iterations": 50,
+    "ls_tolerance": 0.01,
+}
+"""Options with which constraints are solved to the last digit; a model may have few iterations."""
 
 
 class NoLimit(Exception):
@@ -56,11 +65,11 @@ class Equations:
 
     def __init__(self, own: OwnModel, start: mujoco.MjData) -> None:
         self.model, self.controls = copy.copy(own.model), controls_of(own, start)
-        self.model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
-        self.model.opt.tolerance, self.model.opt.iterations = EXACT, ITERATIONS
+        for name, value in EXACT_SOLVER.items():
+            setattr(self.model.opt, name, value)
         self.fine = copy.copy(self.model)
         self.fine.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-        self.start = start
+        self.start, self.act_range = start, _act_range(self.model)
         q, v, self.turns = list[int](), list[int](), list[tuple[int, int]]()
         kinds = zip(self.model.jnt_qposadr, self.model.jnt_dofadr, self.model.jnt_type, strict=True)
         for first, at, kind in kinds:
@@ -96,7 +105,9 @@ class Equations:
             d.ctrl[:] = self.controls.at(min(t, self.before))
         self._set(y)
         mujoco.mj_forward(m, d)
-        return np.concatenate([self._q_dot(y), d.qacc, d.act_dot])
+        low, high = self.act_range  # from whose ends no rate leads outwards
+        least, most = np.where(d.act > low, -np.inf, 0.0), np.where(d.act < high, np.inf, 0.0)
+        return np.concatenate([self._q_dot(y), d.qacc, np.clip(d.act_dot, least, most)])
 
     def followed(self, times: Array, to: Fineness) -> Array:
         """Returns y (N, k) at the times. Raises NoLimit where even small steps diverge.
@@ -169,7 +180,7 @@ class Equations:
     def _set(self, y: Array) -> None:
         nq, nv = self.model.nq, self.model.nv
         self.data.qpos[:], self.data.qvel[:] = y[:nq], y[nq : nq + nv]
-        self.data.act[:] = y[nq + nv :]
+        self.data.act[:] = np.clip(y[nq + nv :], *self.act_range)
 
     def _q_dot(self, y: Array) -> Array:
         v, q_dot = self.data.qvel, np.empty(self.model.nq)
@@ -177,6 +188,15 @@ class Equations:
         for q, at in self.turns:
             q_dot[q : q + 4] = _turning(y[q : q + 4], v[at : at + 3])
         return q_dot
+
+
+def _act_range(m: mujoco.MjModel) -> Array:
+    """(2, na): between what a step keeps each activation."""
+    ends = np.tile(np.array([[-np.inf], [np.inf]]), m.na)
+    for i in np.flatnonzero(m.actuator_actlimited):
+        first, wide = int(m.actuator_actadr[i]), int(m.actuator_actnum[i])
+        ends[:, first : first + wide] = m.actuator_actrange[i][:, None]
+    return ends
 
 
 def _turning(q: Array, omega: Array) -> Array:

@@ -93,7 +93,7 @@ def called(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
 
 WORDS = {
     OBJECT.mjOBJ_BODY: "body", OBJECT.mjOBJ_JOINT: "joint", OBJECT.mjOBJ_SENSOR: "sensor",
-    OBJECT.mjOBJ_ACTUATOR: "actuator",
+    OBJECT.mjOBJ_ACTUATOR: "actuator", OBJECT.mjOBJ_TENDON: "tendon",
 }  # fmt: skip
 
 

@@ -193,3 +193,45 @@ def test_a_disturbance_is_followed_as_finely_as_the_limit() -> None:
     off = np.abs(limits.repeated(own, exact, start) - exact.y)[:, 0]
     assert off[0] == pytest.approx(1e-6)
     assert off[-1] < 1e-6
+
+
+@pytest.mark.mutant("a limit of constraints that are solved as roughly as the model says")
+@pytest.mark.parametrize("lost", ["iterations", "ls_iterations"])
+def test_constraints_are_solved_whatever_iterations_a_model_has(
+    lost: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A chain that falls upon a plane: files for MJX have one iteration, of few searches."""
+    exact = limit(compiled_text(FALLING), SHORT[:9])
+    few = FALLING.replace("<option ", '<option iterations="1" ls_iterations="1" ')
+    assert np.array_equal(limit(compiled_text(few), SHORT[:9]).q, exact.q)
+    less = {name: value for name, value in ours.EXACT_SOLVER.items() if name != lost}
+    monkeypatch.setattr(ours, "EXACT_SOLVER", less)
+    assert not np.array_equal(limit(compiled_text(few), SHORT[:9]).q, exact.q)
+
+
+FALLING = """\
+<mujoco><option timestep="0.002"/><worldbody><geom type="plane" size="1 1 1"/>
+<body pos="0 0 .06"><freejoint/><geom type="capsule" size=".05" fromto="0 0 0 .3 0 0"/>
+<body pos=".3 0 0"><joint axis="0 1 0"/><geom type="capsule" size=".05" fromto="0 0 0 .3 0 0"/>
+<body pos=".3 0 0"><joint axis="0 0 1"/><geom type="capsule" size=".05" fromto="0 0 0 .3 0 .1"/>
+</body></body></body></worldbody><keyframe><key qpos="0 0 .06 1 0 0 0 .1 0"
+qvel="1 .5 -.5 1 0 0 0 0"/></keyframe></mujoco>"""
+
+
+@pytest.mark.mutant("an activation without its range")
+def test_an_activation_stays_in_its_range(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = compiled_text(INTEGRATING)
+    wanted = stepped(own, TIMES, "implicitfast", 1e-4)
+    exact = limit(own, TIMES)
+    assert wanted is not None
+    assert exact.y[-1, 2] == pytest.approx(0.2, abs=1e-6)
+    assert np.abs(exact.q - wanted).max() < 1e-3
+    monkeypatch.setattr(ours, "_act_range", lambda m: np.array([[-np.inf], [np.inf]]))
+    assert np.abs(limit(own, TIMES).q - wanted).max() > 0.1
+
+
+INTEGRATING = """\
+<mujoco><option timestep="0.002" gravity="0 0 0"/><worldbody><body>
+<joint name="turns" axis="0 0 1" damping="1"/><geom size=".1" mass="1" pos=".3 0 0"/></body>
+</worldbody><actuator><intvelocity joint="turns" kp="10" kv="1" actrange="-.2 .2"/></actuator>
+<keyframe><key qpos="0" ctrl="1"/></keyframe></mujoco>"""

@@ -100,8 +100,8 @@ def test_the_limit_is_the_motion_of_the_textbooks_equations() -> None:
     ("what", "was", "now"),
     [
         ("a limit without the controls", '"act", "ctrl",', '"act",'),
-        ("a limit with another gravity", "EXACT, ITERATIONS",
-         "EXACT, ITERATIONS; self.model.opt.gravity[2] = -9.80665"),
+        ("a limit with another gravity", "self.fine = copy",
+         "self.model.opt.gravity[2] = -9.80665; self.fine = copy"),
     ],
 )  # fmt: skip
 def test_another_limit_is_seen(
