@@ -244,7 +244,7 @@ def test_every_shipped_file_is_compared_by_our_own_tests() -> None:
 
     files = {*(root / "cases").rglob("*.yaml")}
     assert {*shipped().values()} <= files
-    assert {file.parent.name for file in files} == {"cases", "questions"}
+    assert {file.parent.name for file in files} == {"cases", "models", "questions"}
     assert all(_configured(file, cast("pytest.Config", Config())) for file in files)
 
 
