@@ -9,6 +9,7 @@ import numpy as np
 from ...cases.fields.number import Amount, NumberMistake, fitting, turned
 from ...cases.mistake import CaseError, Mistake, Path, nearest
 from ...cases.model_case import JOINTS, Law, ModelCase, ModelStart
+from ...cases.trajectory import Array
 from .model import OwnModel, compiled, compiled_text, drawn_rates, drawn_start
 from .quantities import Quantity, joint_quantities, quantities
 from .release import actuators, column
@@ -25,6 +26,15 @@ class Opened:
 
     own: OwnModel
     bars: Mapping[Quantity, float]
+
+    @property
+    def joints(self) -> Array:
+        """(n,) [rad, m] what each velocity's joint may be off; where nobody bounds it the least."""
+        each = np.full(self.own.model.nv, min(self.bars.values()))
+        for quantity, bar in self.bars.items():
+            if quantity.of == "joint":
+                each[quantity.first : quantity.first + quantity.wide] = bar
+        return each
 
 
 def opened(case: ModelCase) -> Opened:

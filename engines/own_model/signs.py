@@ -1,4 +1,4 @@
-"""What a run of a model's own steps shows beside its error: shakes, forces at limits, energy."""
+"""The signs of a run beside its error: shakes, forces at limits, energy."""
 
 import copy
 from collections.abc import Callable, Mapping
@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 
 from ...cases.trajectory import Array
-from .equations import EXACT_SOLVER, SLIGHT, begun_as, controls_of
-from .limit import Limit, stepped_states
-from .model import BROKEN, OwnModel, apart
+from .equations import SLIGHT, begun_as, controls_of
+from .limit import Limit
+from .model import BROKEN, OwnModel
 from .quantities import Motion, Quantity, called, observed
 from .release import actuators, column
 from .seen import Shake, shaking
@@ -33,17 +33,17 @@ class Lost:
 
 @dataclass(frozen=True)
 class Signs:
-    """What a run of a model's own steps shows beside its error.
+    """The signs of a run of a model's own steps, beside its error.
 
     shakes: by velocity, as `seen.shaking` has them. at_limit: by the name of an actuator, joint or
-    tendon for which part of the steps a force is at its bound. solver [rad, m]: how far the model's
-    own solver settings move it; None: nothing is constrained.
+    tendon for which part of the steps a force is at its bound. y (N, k): the last state, at `end`.
     """
 
     shakes: Mapping[int, Shake]
     at_limit: Mapping[str, float]
     lost: Lost
-    solver: float | None
+    end: float
+    y: Array
 
 
 def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | None:
@@ -55,7 +55,7 @@ def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | Non
     bounds, h = _bounds(own.model), own.model.opt.timestep
     data, controls = begun_as(own.model, own.start()), controls_of(own, own.start())
     count = round(float(times[-1]) / h)
-    states, touches, constrained = [_state(data)], np.zeros(len(bounds)), False
+    states, touches = [_state(data)], np.zeros(len(bounds))
     for k in range(count):
         data.ctrl[:] = controls.at((k + SLIGHT) * h)
         mujoco.mj_step(own.model, data)
@@ -63,7 +63,6 @@ def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | Non
             return None
         states.append(_state(data))
         touches += [_at(bound, data) for bound in bounds]
-        constrained = constrained or data.nefc > 0
     y = np.array(states)
     at_limit: dict[str, float] = {}
     for bound, steps in zip(bounds, touches.tolist(), strict=True):
@@ -74,7 +73,8 @@ def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | Non
         shaking(own, np.arange(count + 1) * h, y, bars),
         at_limit,
         _lost(own, times, y[at], exact.y[: len(times)]),
-        _by_solver(own, times, y[at]) if constrained else None,
+        count * h,
+        y[-1],
     )
 
 
@@ -136,11 +136,3 @@ def _kinetic(own: OwnModel, y: Array) -> float:
         mujoco.mj_forward(m, data)
         most = max(most, float(data.energy[1]))
     return most
-
-
-def _by_solver(own: OwnModel, times: Array, y: Array) -> float:
-    """Returns how far [rad, m] the model's own solver settings move it from an exact solution."""
-    exact, nq = stepped_states(own, times, EXACT_SOLVER, own.model.opt.timestep), own.model.nq
-    if exact is None:
-        return float("inf")
-    return float(np.abs(apart(own.model, exact[:, :nq], y[:, :nq])).max(initial=0.0))

@@ -22,6 +22,7 @@ from ..tables.row import (
 )
 from .judge import metric
 from .own_equations import ROUNDING, Part, equations
+from .own_seen import Seen, seen
 from .own_steps import KNOWN, OTHERS, OWN, Error, Setting, Stepped, Steps, integrator_of, steps
 
 ENGINE, THEME, NATIVE, HELD = "mujoco", "own model", "native", "held"
@@ -33,7 +34,7 @@ class Modelled:
     """A model's rows, and what is said of it: what it is, its start, its steps, its equations.
 
     integrators: by setting. coordinates: name and unit of each column of q. because: why there are
-    no steps.
+    no steps. seen: at its own steps.
     """
 
     case: ModelCase
@@ -48,6 +49,7 @@ class Modelled:
     certificates: Sequence[Certificate] = ()
     integrators: Mapping[str, str] = field(default_factory=dict[str, str])
     coordinates: Sequence[tuple[str, str]] = ()
+    seen: Seen = field(default_factory=lambda: Seen({}))
 
     @property
     def limit(self) -> Limit | None:
@@ -78,16 +80,18 @@ def modelled(
                         certificates)  # fmt: skip
     if result.known <= KNOWN * min(ready.bars.values()):
         certificates.append(_known(case, result))
+    shown = seen(ready, result.limit, result.until)
     each = [(stepped, q, error) for stepped in result.settings for q, error in
             stepped.errors.items()]  # fmt: skip
     return Modelled(
         case, str(own), own.started, result, parts, "",
-        [_row(case, own, result, *one) for one in each],
+        [_row(case, own, result, shown, *one) for one in each],
         [row for one in each for row in _rungs(case, *one)],
         [row for one in each for row in _step_errors(case, *one)],
         certificates,
         {each.setting.name: integrator_of(own, each.setting) for each in result.settings},
         coordinates(own.model),
+        shown,
     )  # fmt: skip
 
 
@@ -101,27 +105,34 @@ def lost(case: ModelCase, because: str, verdict: str = CRASHED) -> Modelled:
 
 
 def _row(
-    case: ModelCase, own: OwnModel, result: Steps, stepped: Stepped, q: Quantity, error: Error
+    case: ModelCase,
+    own: OwnModel,
+    result: Steps,
+    shown: Seen,
+    stepped: Stepped,
+    q: Quantity,
+    error: Error,
 ) -> Comparison:
     bar, setting = result.bars[q], stepped.setting
     limit = result.limit
     how = f"{integrator_of(own, setting)} against the limit by {limit.method}"
+    words = [shown.of(q)] if setting.name == OWN else []
     if error.off is None:
-        return _comparison(case, setting, q, bar, how, DIVERGED, because="its own step diverges")
+        because = "; ".join(filter(None, [*words, "its own step diverges"]))
+        return _comparison(case, setting, q, bar, how, DIVERGED, because=because)
     size = metric.error(error.off, error.off * 0.0)
     known = result.known
     least = max(known, DIGITS * size.largest)
     largest = metric.round_to_floor(size.largest, least)
-    because = ""
     if largest - known > bar:
         verdict = BEYOND
     elif largest + known <= bar:
         verdict = AGREES
     else:
-        verdict, because = REFUSED, f"the limit is known to {known:.0e} only"
+        verdict = REFUSED
+        words.append(f"the limit is known to {known:.0e} only")
     if result.late:
-        late = f"judged until {result.until:.3g} s: {result.late}"
-        because = "; ".join(filter(None, [because, late]))
+        words.append(f"judged until {result.until:.3g} s: {result.late}")
     return _comparison(
         case, setting, q, bar, how, verdict,
         error=largest,
@@ -129,7 +140,7 @@ def _row(
         rms=metric.round_to_floor(size.rms, least),
         final=metric.round_to_floor(size.final, least),
         ratio=largest / bar,
-        because=because,
+        because="; ".join(filter(None, words)),
     )  # fmt: skip
 
 

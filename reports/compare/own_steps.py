@@ -15,6 +15,7 @@ from ...cases.trajectory import Array
 from ...engines.own_model.limit import (
     INTEGRATORS,
     PAIRS,
+    WORDS,
     Limit,
     apart_by_pairs,
     limit,
@@ -30,8 +31,14 @@ from .judge.metric import sizes
 RUNGS = (4.0, 2.0, 1.0, 1 / 2, 1 / 4, 1 / 8)  # of its own step
 DISTURBED = 1e-9  # rad, m: what grows from it to the tolerance is chaos, and judged no longer
 OWN = "own"
-OTHERS = {"shipped": "Euler", "recommended": "implicitfast", "rk4": "RK4"}
-"""Further settings: what MuJoCo ships, what its documentation advises, and RK4."""
+OTHERS: Mapping[str, Mapping[str, str | float]] = {
+    "shipped": {"integrator": "Euler"},
+    "recommended": {"integrator": "implicitfast"},
+    "rk4": {"integrator": "RK4"},
+    "solver": {"solver": "Newton", "iterations": 100, "ls_iterations": 50, "tolerance": 1e-8},
+}
+"""Further settings: what MuJoCo ships, what its documentation advises, and RK4; and MuJoCo's solver
+as it ships, beside which a model's own may have fewer iterations."""
 ROUNDING = 1e-12  # rad, m: below it errors are of rounding
 CLEAR = 10  # times the limit's own error: below it an order is of that
 FEWEST = 3  # samples: a limit that is known for fewer is rough from the start
@@ -103,14 +110,21 @@ def settings_of(
     own: OwnModel, others: Sequence[str], named: Sequence[Setting] = ()
 ) -> list[Setting]:
     """Returns the model's own setting, the others that differ from it, and those that are named."""
-    h, integrator = own.model.opt.timestep, own.model.opt.integrator
-    different = [
-        Setting(name, {"integrator": OTHERS[name]}, h)
-        for name in others
-        if INTEGRATORS[OTHERS[name]] != integrator
-    ]
+    h = own.model.opt.timestep
+    less = {
+        name: {k: v for k, v in OTHERS[name].items() if _has_less(own, k, v)} for name in others
+    }
+    different = [Setting(name, options, h) for name, options in less.items() if options]
     named = [replace(setting, step=setting.step or h) for setting in named]
     return [Setting(OWN, {}, h), *different, *named]
+
+
+def _has_less(own: OwnModel, option: str, value: str | float) -> bool:
+    """Whether the model's own option is another word, fewer iterations, or a larger tolerance."""
+    has = getattr(own.model.opt, option)
+    if isinstance(value, str):
+        return has != WORDS[option][value]
+    return has > value if option == "tolerance" else has < value
 
 
 def times_of(case: ModelCase, steps: Sequence[float]) -> Array:

@@ -13,7 +13,8 @@ from ...tables.short_numbers import factor, milliseconds
 from ...tables.spoken import spoken
 
 HEAD = (
-    f"  {'setting':13} {'integrator':13} {'step':>8}  {'worst':24}{'off by':>12} {'of allowed':>11}"
+    f"  {'setting':13} {'integrator':13} {'step':>8}  {'worst':24}{'off by':>12} {'at':>7}"
+    f"{'of allowed':>12}"
 )
 
 
@@ -95,6 +96,7 @@ def _steps(model: Modelled, steps: Steps) -> Iterator[str]:
         yield f"  judged until {steps.until:.3g} s: {steps.late}"
     if steps.note:
         yield f"  no finer steps: {steps.note}"
+    yield from (f"  {words}" for words in [*model.seen.joints.values(), *model.seen.beside])
     yield ""
     yield f"{HEAD}  order  keeps all from"
     rows: dict[str, list[Comparison]] = {}
@@ -120,5 +122,6 @@ def _line(model: Modelled, stepped: Stepped, rows: Sequence[Comparison]) -> str:
     keeps = "none tried" if stepped.keeps is None else milliseconds(stepped.keeps)
     if worst.verdict == REFUSED:
         keeps = worst.because
-    told = f"{head}  {worst.quantity:24} {size:>11} {ratio:>11}"
+    when = "" if worst.when is None else f"{worst.when:.3g} s"
+    told = f"{head}  {worst.quantity:24} {size:>11} {when:>7} {ratio:>11}"
     return f"{told}  {'' if order is None else f'{order:.1f}':>5}  {keeps}"

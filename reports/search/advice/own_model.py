@@ -15,19 +15,13 @@ from ....cases.fields.number import Amount
 from ....cases.model_case import JOINTS, ModelCase, ModelStart
 from ....cases.trajectory import Array
 from ....engines.own_model.changed import Changed, changes, option
-from ....engines.own_model.limit import INTEGRATORS, WORDS, Limit, NoLimit, apart_by_pairs, limit
+from ....engines.own_model.limit import INTEGRATORS, Limit, NoLimit, apart_by_pairs, limit
 from ....engines.own_model.model import OwnModel, apart
 from ....engines.own_model.opened import Opened, opened
 from ....engines.own_model.quantities import Quantity
-from ....engines.own_model.seen import (
-    diverges,
-    joint_of,
-    motion,
-    servos,
-    shaking,
-    short_of_target,
-)
+from ....engines.own_model.seen import joint_of, motion, servos, shaking, short_of_target
 from ....engines.own_model.static import ALONE, SHORT, Suspicion, short_times, suspicions
+from ...compare.own_seen import ARRIVES, FEW, LATE, seen
 from ...compare.own_steps import (
     KNOWN,
     OWN,
@@ -44,14 +38,8 @@ EVALUATIONS = {"Euler": 1.0, "implicitfast": 1.0, "implicit": 1.6, "RK4": 3.7}
 """What a step costs beside Euler's: 0.9–1.05, 1.3–2.3, 3.5–3.9 of its time in seven models, nv 3 to
 27. A number, so that advice is the same wherever it is given."""
 FINE = 8  # parts of its own step from which a second ladder begins, where no setting keeps the bars
-SOLVER: Mapping[str, str | int | float] = {
-    "solver": "Newton", "iterations": 100, "ls_iterations": 50, "tolerance": 1e-8,
-}  # fmt: skip
-"""MuJoCo's defaults: whoever has less may lack them."""
 OF_STIFF = "recommended"  # the setting that is tried beside its own where the model is changed
 FURTHER = 0.3  # rad, m: by how much targets are moved, to see what rest hides
-ARRIVES = 0.5  # of what its own steps stay short: its own equations bring it nearer than that
-LATE = 0.9  # of a run: what shakes until then shakes on
 
 
 @dataclass(frozen=True)
@@ -122,12 +110,12 @@ class _Asked:
 
     @property
     def joints(self) -> Array:
-        """(n,) [rad, m] what each velocity's joint may be off; where nobody bounds it the least."""
-        each = np.full(self.own.model.nv, min(self.allowed.values()))
-        for quantity, bar in self.allowed.items():
-            if quantity.of == "joint":
-                each[quantity.first : quantity.first + quantity.wide] = bar
-        return each
+        """(n,) [rad, m] what each velocity's joint may be off."""
+        return Opened(self.own, self.allowed).joints
+
+    def seen(self, exact: Limit, until: float) -> Mapping[int | None, str]:
+        """Returns by velocity what a person sees at its own steps, and not of its own equations."""
+        return seen(Opened(self.own, self.allowed), exact, until).joints
 
 
 def advised(case: ModelCase, tolerance: float | None, margin: float) -> OwnAdvice:
@@ -185,46 +173,36 @@ def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     own, h = asked.own, asked.own.model.opt.timestep
     mine = integrator_of(own, Setting(OWN, {}, h))
     named = [Setting(i, {"integrator": i}, h) for i in INTEGRATORS if i != mine]
-    less = {name: value for name, value in SOLVER.items() if _less(own, name, value)}
-    solver = [Setting("solver", less, h)] if less else []
-    result = steps(asked.case, asked.opened, (), [*named, *solver])
+    result = steps(asked.case, asked.opened, ("solver",), named)
     exact = result.limit
     first, *others = result.settings
     known = f"{exact.method}, known to {result.known:.0e} rad or m"
     told = Tried(own.started, known, result.until, _recipe(asked, first, h))
     if result.known > KNOWN * min(asked.allowed.values()):
         return replace(told, because="its limit is not known well enough to judge steps")
-    seen = _seen(asked, exact, result.until)
-    coarsest = _coarsest(asked, result, [first, *others[: len(named)]])
+    shown = asked.seen(exact, result.until)
+    coarsest = _coarsest(asked, result, [first, *others[-len(named) :]])
     usable = [recipe for recipe in coarsest if recipe.keeps]
     own_ratio = inf if told.own.ratio is None else told.own.ratio
     nearer = any((recipe.ratio or inf) < ARRIVES * own_ratio for recipe in coarsest)
-    if own_ratio > 1 and not seen and not nearer:
+    if own_ratio > 1 and not shown and not nearer:
         return replace(told, because="finer steps come no nearer to its limit")
     cures: list[Recipe] = []
-    if seen or own_ratio > 1:
+    if shown or own_ratio > 1:
         at_own = [each for each in others if (each.keeps or 0.0) >= h]
         cures += [_recipe(asked, each, h) for each in at_own]
         cures += [recipe for recipe in usable if recipe.integrator == mine and recipe.step < h]
-    for kind in changes(asked.case, own, _simple(own, seen)):
+    for kind in changes(asked.case, own, _simple(own, shown)):
         tried = (_changed(asked, change, result) for change in kind)
         cures += [*islice(filter(None, tried), 1)]
     return replace(
         told,
-        seen=[*seen.values(), *_softened(asked, result)],
-        suspected=[each.words for each in suspected if each.dof in seen],
+        seen=[*shown.values(), *_softened(asked, result)],
+        suspected=[each.words for each in suspected if each.dof in shown],
         coarsest=coarsest,
         cures=cures,
         cheapest=_cheapest(usable),
     )
-
-
-def _less(own: OwnModel, name: str, value: float | str) -> bool:
-    """Whether the model's own solver has fewer iterations, or stops earlier, than that."""
-    has = getattr(own.model.opt, name)
-    if isinstance(value, str):
-        return has != WORDS[name][value]
-    return has > value if name == "tolerance" else has < value
 
 
 def _recipe(asked: _Asked, stepped: Stepped, step: float) -> Recipe:
@@ -299,7 +277,7 @@ def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
     if moved is None or shaking(new.own, *moved, new.joints):
         return None
     result = steps(asked.case, new.opened, (OF_STIFF,))
-    if _seen(new, result.limit, result.until):
+    if new.seen(result.limit, result.until):
         return None
     both = before.limit.times <= min(before.until, result.until)
     off = np.abs(apart(m, before.limit.q, result.limit.q))[both].max(axis=0)
@@ -314,45 +292,10 @@ def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
     )
 
 
-def _seen(asked: _Asked, exact: Limit, until: float) -> dict[int | None, str]:
-    """Returns by velocity what a person sees at its own steps, and not of its own equations."""
-    own, nq = asked.own, asked.own.model.nq
-    moved = motion(own, until)
-    if moved is None:
-        when, dof = diverges(own, until)
-        who = "it" if dof is None else joint_of(own.model, dof)[0]
-        return {dof: f"{who} diverges after {when:.3g} s; its own equations do not"}
-    times, y = moved
-    seen: dict[int | None, str] = {}
-    at_end = exact.times <= until
-    arrives = short_of_target(own, until, exact.y[at_end][-1])
-    short = {
-        k: off
-        for k, off in short_of_target(own, float(times[-1]), y[-1]).items()
-        if off > asked.joints[k] and arrives[k] < ARRIVES * off
-    }
-    shakes = shaking(own, times, y, asked.joints)
-    for k in sorted({*short, *shakes}):
-        name, unit = joint_of(own.model, k)
-        words: list[str] = []
-        if k in shakes:
-            shake = shakes[k]
-            inside = (exact.times >= shake.begins) & (exact.times <= shake.ends)
-            if np.abs(exact.y[inside, nq + k]).max(initial=0.0) < ARRIVES * shake.rate:
-                ends = "" if shake.ends >= LATE * until else f" until {shake.ends:.2g} s"
-                words.append(f"shakes at {shake.rate:#.2g} {unit}/s{ends}")
-        if k in short:
-            words.append(f"stays {short[k]:#.2g} {unit} short of its target")
-        if words:
-            equations = "bring it there" if k in short else "do not"
-            seen[k] = f"{name} {' and '.join(words)}; its own equations {equations}"
-    return seen
-
-
-def _simple(own: OwnModel, seen: Mapping[int | None, str]) -> list[int]:
+def _simple(own: OwnModel, shown: Mapping[int | None, str]) -> list[int]:
     """Returns the velocities among them of joints that turn or shift, and do no more."""
     kinds = own.model.jnt_type[own.model.dof_jntid]
-    return [k for k in seen if k is not None and kinds[k] in ALONE]
+    return [k for k in shown if k is not None and kinds[k] in ALONE]
 
 
 def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
@@ -378,6 +321,3 @@ def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
             f"{who}: softer than written, as solref is raised to 2h: as written {name} moves "
             f"{off[:, k].max():.2g} {unit} otherwise; {milliseconds(least)} takes it as written"
         )
-
-
-FEW = 3  # elements by name
