@@ -1,4 +1,4 @@
-"""Says in words what a model's own steps show and its limit does not: a shake, a servo that lags."""
+"""Says in words what a model's own steps show and its limit does not: a joint that shakes."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
