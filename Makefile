@@ -8,7 +8,7 @@ INSTALL := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 # What is compiled is kept: else every worker compiles all modules and all tests anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help reports advice test test-slow test-all everywhere processors quick lint mutants speed bench install clean
+.PHONY: help reports advice test test-slow test-all everywhere processors quick lint mutants models speed bench install clean
 
 # What can be made; `make` alone says it too.
 help:
@@ -70,6 +70,10 @@ SEED ?= 1
 mutants: $(READY)
 	$(INSTALL) '.[mutants]'
 	$(VENV)/bin/python tests/mutants.py --count $(COUNT) --seed $(SEED)
+
+# How the models that gymnasium and dm-control ship step: minutes of search.
+models: $(READY)
+	$(VENV)/bin/python tests/public_models.py
 
 # What a person waits for, in a fresh clone of the last commit: half an hour of an idle machine.
 speed: $(READY)

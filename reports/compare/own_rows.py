@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import inf
 
 from ...cases.model_case import ModelCase
 from ...engines.own_model.limit import Limit, NoLimit
 from ...engines.own_model.model import VERSION, OwnModel
 from ...engines.own_model.opened import opened
 from ...engines.own_model.quantities import Quantity, coordinates
+from ..tables.model_line import ModelLine
 from ..tables.row import (
     AGREES,
     BEYOND,
@@ -102,6 +104,28 @@ def lost(case: ModelCase, because: str, verdict: str = CRASHED) -> Modelled:
         None, None, None, None, None, None, None, verdict, because,
     )  # fmt: skip
     return Modelled(case, "", "", None, (), because, [row])
+
+
+def line(model: Modelled, cure: str = "") -> ModelLine:
+    """Returns a model's row of the table of models; cure: in words."""
+    own = [row for row in model.comparisons if row.setting == OWN]
+    if not own:
+        return ModelLine(model.case.name, because=model.because)
+    worst = max(own, key=lambda row: inf if row.verdict == DIVERGED else row.ratio or 0.0)
+    settings = model.steps.settings if model.steps else ()
+    best = max(settings, key=lambda each: each.keeps or 0.0, default=None)
+    fails = [f"FAILS: {part.name}" for part in model.parts if not part.holds]
+    unread = (what for part in model.parts for what in part.unread)
+    return ModelLine(
+        model.case.name, model.integrators.get(OWN, ""), worst.step, worst.quantity, worst.unit,
+        worst.error, worst.when, worst.allowed, worst.ratio, worst.verdict,
+        "; ".join(model.seen.joints.values()),
+        best.setting.name if best and best.keeps else "none tried" if settings else "",
+        best.keeps if best else None,
+        cure,
+        "; ".join(dict.fromkeys(unread)),
+        "; ".join(filter(None, [*fails, model.because])),
+    )  # fmt: skip
 
 
 def _row(

@@ -1,6 +1,6 @@
 """Models of the user's own: from the words of a command line to their cases, and to their rows."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
@@ -183,6 +183,23 @@ def done(task: Task) -> Modelled | CaseError:
         return error
 
 
+def answered(
+    what: str, function: Callable[[Any], Any], tasks: Sequence[Any], results: Results
+) -> list[Any]:
+    """Returns for each task, of a `case` of a model, its answer, its mistakes, or how it died.
+
+    What was answered of the same numbers is not asked again.
+    """
+    words = results.anew("models compiled", digest, dict(enumerate(tasks)))
+    keys = {
+        index: results.keys.model(tasks[index], word)
+        for index, word in words.items()
+        if not isinstance(word, CaseError | Died)
+    }
+    by_key = results.of(what, function, {key: tasks[index] for index, key in keys.items()})
+    return [by_key[keys[k]] if k in keys else words[k] for k in range(len(tasks))]
+
+
 def measured(
     cases: Sequence[ModelCase], settings: Settings, results: Results
 ) -> tuple[list[Modelled], list[Mistake]]:
@@ -190,21 +207,10 @@ def measured(
 
     A model that ends its process, or takes too long, has rows that say so.
     """
-    tasks = {str(index): Task(case, settings) for index, case in enumerate(cases)}
-    words = results.anew("models compiled", digest, tasks)
+    answers = answered("models", done, [Task(case, settings) for case in cases], results)
     mistakes: list[Mistake] = []
-    keys: dict[str, str] = {}
-    answers: dict[str, Any] = {}
-    for index, word in words.items():
-        if isinstance(word, CaseError | Died):
-            answers[index] = word
-        else:
-            keys[index] = results.keys.model(tasks[index], word)
-    by_key = results.of("models", done, {keys[index]: tasks[index] for index in keys})
-    answers |= {index: by_key[key] for index, key in keys.items()}
     rows: list[Modelled] = []
-    for index in sorted(answers, key=int):
-        answer, case = answers[index], tasks[index].case
+    for case, answer in zip(cases, answers, strict=True):
         if isinstance(answer, CaseError) and not case.in_folder:
             mistakes += answer.mistakes
         elif isinstance(answer, CaseError):

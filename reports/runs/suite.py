@@ -14,9 +14,10 @@ from ..compare.judge.instants import of_reference
 from ..compare.judge.metric import round_to_floor
 from ..compare.judge.uncertified import failing, uncertified
 from ..compare.judge.unintended import unintended
-from ..compare.own_rows import Modelled
+from ..compare.own_rows import Modelled, line
 from ..compare.trial.book import producers
 from ..tables.coverage import countable
+from ..tables.model_line import ModelLine
 from ..tables.promised import answered
 from ..tables.row import FAILS, Cause, Certificate, Comparison, Instant, Rungs, StepError
 from .models import measured
@@ -50,6 +51,12 @@ class Report:
     mistakes: list[Mistake] = field(default_factory=list)  # of files that are left out
     tried: list[Tried] = field(default_factory=list)
     models: list[Modelled] = field(default_factory=list)
+    cures: dict[str, str] = field(default_factory=dict)  # of models, by name, in words
+
+    @property
+    def lines(self) -> list[ModelLine]:
+        """A row for each model."""
+        return [line(model, self.cures.get(model.case.name, "")) for model in self.models]
 
     @property
     def fails(self) -> bool:

@@ -67,17 +67,17 @@ class Results:
         self,
         what: str,
         function: Callable[[Any], Any],
-        tasks: Mapping[str, Any],
+        tasks: Mapping[Any, Any],
         of: int | None = None,
         *,
         keep: bool = False,
-    ) -> dict[str, Any]:
+    ) -> dict[Any, Any]:
         """Computes every task, whatever is stored; of: how many there are with those stored.
 
         keep: whether the results are stored as they come, also where the rest is interrupted.
         """
         total = len(tasks) if of is None else of
-        done, found, keys = total - len(tasks), dict[str, Any](), list(tasks)
+        done, found, keys = total - len(tasks), dict[Any, Any](), list(tasks)
         whole, finished = sum(map(_work, tasks.values())) or 1.0, 0.0
         unkept, since = dict[str, Any](), time.monotonic()
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from . import run_list
 from .file_content import content
+from .model_line import ModelLine
 from .row import Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
 
 TITLE = "<title>textmech: "
@@ -21,7 +22,7 @@ _PICTURES = {
 """What stands in the head of a picture."""
 _REPORTS = {
     ",".join(column.name for column in fields(kind))
-    for kind in (Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice)
+    for kind in (Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice, ModelLine)
 } | {",".join(run_list.HEAD), "kind,number,cases,otherwise", "room,planted,seen_by,loop"}
 """The first lines of reports."""
 _TABLES = {

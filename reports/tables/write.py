@@ -15,6 +15,7 @@ from ...reference.certificate.errors import ERROR
 from . import run_list
 from .coverage import coverage
 from .file_content import text as content
+from .model_line import ModelLine
 from .ownership import HERE, is_checkout, unasked
 from .replace import replace
 from .row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs, StepError
@@ -22,7 +23,7 @@ from .row import NUMBERS, Advice, Cause, Certificate, Comparison, Instant, Rungs
 ELSEWHERE = Path("textmech-reports")
 NAMES = (
     "tolerance.csv", "convergence.csv", "steps.csv", "events.csv", "causes.csv", "reference.csv",
-    "coverage.csv",
+    "coverage.csv", "models.csv",
 )  # fmt: skip
 FILES = (*NAMES, run_list.NAME)
 """What a run writes."""
@@ -45,6 +46,9 @@ class Rows(Protocol):
     certificates: list[Certificate]
     equations: dict[str, set[str]]
 
+    @property
+    def lines(self) -> Sequence[ModelLine]: ...
+
 
 def by_default() -> Path:
     """Where a full run writes: the committed reports of a checkout, else the user's own folder."""
@@ -61,6 +65,7 @@ def tables(report: Rows, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
         _table(report.causes, Cause),
         _table(_as_known(report.certificates, cases), Certificate),
         coverage(cases, report.equations),
+        _table(report.lines, ModelLine),
     )
     return dict(zip(NAMES, found, strict=True))
 

@@ -60,12 +60,15 @@ def looked_at(request: "Request", *, causes: bool = False, cached: bool = True) 
     from ..show.cures import carried
     from ..show.progress import progress
     from .done import finished
+    from .own_advice import cures
 
     known = committed.committed_causes() if causes and cached else None
     used = store.usable() if cached else None
     with progress() as shown, finished(used is not None):
         asked = replace(request, progress=shown, store=used)
         report = explained.measure(asked, search=causes, known=known)
+        if causes:
+            report.cures = cures(asked, report)
     if used is not None:
         used.trim()
     report.mistakes[:0] = request.mistakes

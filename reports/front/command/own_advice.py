@@ -1,17 +1,22 @@
 """Advice on models of the user's own, in lines."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ....cases.mistake import CaseError, plain
+from ...tables.row import BEYOND, DIVERGED
 from ...tables.short_numbers import factor, milliseconds
 
 if TYPE_CHECKING:
     from ....cases.mistake import Mistake
     from ....cases.model_case import ModelCase
     from ...runs.request import Request
+    from ...runs.suite import Report
     from ...search.advice.own_model import OwnAdvice, Recipe, Tried
+
+
+MARGIN = 2.0  # how often errors have to fit into what is allowed, where nobody says it
 
 
 @dataclass(frozen=True)
@@ -51,16 +56,16 @@ def advised_models(
     request: "Request", tolerance: float | None, margin: float
 ) -> "tuple[list[OwnAdvice], list[Mistake]]":
     """Returns the advice on a request's models, each in a process of its own, and the mistakes."""
+    from ...runs.models import answered
     from ...runs.processes.pool import Died
     from ...search.advice.own_model import OwnAdvice
 
-    tasks = {str(k): Task(case, tolerance, margin) for k, case in enumerate(request.models)}
+    tasks = [Task(case, tolerance, margin) for case in request.models]
     advice: list[OwnAdvice] = []
     mistakes: list[Mistake] = []
     with request.results(len(tasks)) as results:
-        answers = results.anew("models", done, tasks)
-    for index in sorted(answers, key=int):
-        answer, case = answers[index], tasks[index].case
+        answers = answered("models advised", done, tasks, results)
+    for case, answer in zip(request.models, answers, strict=True):
         if isinstance(answer, Died):
             answer = OwnAdvice(case.name, "", margin, (), answer.because)
         elif isinstance(answer, CaseError) and case.in_folder:
@@ -71,6 +76,28 @@ def advised_models(
         else:
             advice.append(answer)
     return advice, mistakes
+
+
+def cures(request: "Request", report: "Report") -> dict[str, str]:
+    """Returns by name what cures each model that is off by more than a tolerance, in words."""
+    off = {line.case for line in report.lines if line.verdict in (BEYOND, DIVERGED)}
+    models = [case for case in request.models if case.name in off]
+    if not models:
+        return {}
+    advice, _ = advised_models(replace(request, models=models), None, MARGIN)
+    return {each.case: _cure(each) for each in advice}
+
+
+def _cure(advice: "OwnAdvice") -> str:
+    """Returns what costs least of all that keeps every tolerance; or why there is nothing."""
+    if advice.because:
+        return advice.because
+    tried = advice.tried[0]
+    keep = [recipe for recipe in tried.cures if recipe.ratio is not None and recipe.ratio <= 1]
+    keep += [tried.cheapest] if tried.cheapest else []
+    if best := min(keep, key=lambda recipe: recipe.cost, default=None):
+        return "; ".join([f"{best.change} ×{best.cost:.2g}", *best.lines])
+    return tried.because or "none tried cures it"
 
 
 def lines(advice: "OwnAdvice") -> Iterator[str]:

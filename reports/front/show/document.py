@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from ....cases.find import questions
 from ....cases.mistake import Mistake
 from .console import say
-from .model import line as model_line
 from .summary import Cures, approximations, summary
 
 if TYPE_CHECKING:
@@ -45,7 +44,7 @@ def of_run(
         "events": [asdict(row) for row in report.instants],
         "reference": [asdict(row) for row in report.certificates],
         "causes": [asdict(row) for row in report.causes],
-        "models": [asdict(model_line(model)) for model in report.models],
+        "models": [asdict(line) for line in report.lines],
         "warnings": [{"case": case, "what": what} for case, what in report.warnings()],
         "mistakes": mistakes(wrong),
         "written": None if written is None else str(written),

@@ -1,13 +1,13 @@
 """Says of a user's model what it is, how far off its steps are, and what of it is compared."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass
 from math import inf
 
 from ....cases.mistake import plain
 from ...compare import own_equations
 from ...compare.own_rows import Modelled
-from ...compare.own_steps import OWN, Stepped, Steps
+from ...compare.own_steps import Stepped, Steps
+from ...tables.model_line import ModelLine
 from ...tables.row import REFUSED, Comparison
 from ...tables.short_numbers import factor, milliseconds
 from ...tables.spoken import spoken
@@ -21,56 +21,34 @@ HEAD = (
 FEW = 3  # models: of more there is one table, a row each
 
 
-@dataclass(frozen=True)
-class Line:
-    """A model in a table: its worst quantity at its own setting, what keeps all, what is not read.
-
-    keeps: the setting with the coarsest step that does.
-    """
-
-    model: str
-    own: str
-    keeps: str
-    remark: str
-
-
-def line(model: Modelled) -> Line:
-    """Returns a model's row."""
-    name, steps = model.case.name, model.steps
-    unread = [what for part in model.parts for what in part.unread]
-    fails = [f"FAILS: {part.name}" for part in model.parts if not part.holds]
-    because = [model.because] if model.because else []
-    remark = "; ".join([*fails, *because, *([f"{len(unread)} not read"] if unread else [])])
-    if steps is None:
-        return Line(name, "", "", remark)
-    rows = [row for row in model.comparisons if row.setting == OWN]
-    worst = max(rows, key=_size)
-    own = f"{worst.quantity} {factor(worst.ratio)}" if worst.ratio is not None else worst.verdict
-    best = max(
-        (each for each in steps.settings if each.keeps), key=lambda each: each.keeps or 0.0,
-        default=None,
+def overview(models: Sequence[ModelLine]) -> str:
+    """Returns a table, a row a model."""
+    head = ("model", "own setting, of allowed", "kept from", "cure", "and")
+    rows = [head, *map(_cells, models)]
+    if not any(model.cure for model in models):
+        rows = [(*row[:3], row[4]) for row in rows]
+    *wide, _ = zip(*rows, strict=True)
+    widths = [max(map(len, column)) for column in wide]
+    return "\n".join(
+        "  ".join([*(f"{cell:{wide}}" for cell, wide in zip(row, widths, strict=False)), row[-1]])
+        .rstrip() for row in rows
     )  # fmt: skip
-    keeps = "none tried"
-    if best is not None and best.keeps is not None:
-        keeps = f"{best.setting.name} {milliseconds(best.keeps)}"
-    return Line(name, own, keeps, remark)
+
+
+def _cells(model: ModelLine) -> tuple[str, ...]:
+    own = spoken(model.verdict)
+    if model.ratio is not None:
+        own = f"{model.quantity} {factor(model.ratio)}"
+    keeps = model.keeps
+    if model.keeps_step is not None:
+        keeps = f"{keeps} {milliseconds(model.keeps_step)}"
+    unread = f"not compared: {len(model.not_compared.split('; '))}" if model.not_compared else ""
+    remark = "; ".join(filter(None, [model.because, model.seen, unread]))
+    return tuple(map(plain, (model.case, own, keeps, model.cure.partition(";")[0], remark)))
 
 
 def _size(row: Comparison) -> float:
     return inf if row.error is None else row.ratio or 0.0
-
-
-def overview(models: Sequence[Modelled]) -> str:
-    """Returns a table, a row a model."""
-    rows = [("model", "own setting, of allowed", "kept from", "not compared"), *(
-        astuple(line(model)) for model in models
-    )]  # fmt: skip
-    widths = [max(len(plain(row[k])) for row in rows) for k in range(3)]
-    return "\n".join(
-        "  ".join([*(f"{plain(cell):{wide}}" for cell, wide in zip(row[:3], widths, strict=True)),
-                   plain(row[3])]).rstrip()
-        for row in rows
-    )  # fmt: skip
 
 
 def model_lines(model: Modelled) -> Iterator[str]:

@@ -30,7 +30,7 @@ def show(
         for text in model_lines(model):
             say(text)
     if len(models) > 1:
-        say(f"\n{overview(report.models)}")
+        say(f"\n{overview(report.lines)}")
     _summary(scenes, report.rungs, cures or {})
     for case, warning in report.warnings():
         for text in _wrapped(f"{case}: warning: {warning}", ""):

@@ -117,11 +117,12 @@ class Keys:
         return _word("search", engine.version, repr(engine), self._case(case), code)
 
     def model(self, task: Any, digest: str) -> str:
-        """The key of the rows of a user's model; digest: of all its numbers."""
+        """The key of what is asked of a user's model; digest: of all its numbers."""
         case, code = task.case, self._code(ROOMS)
         values = [getattr(case, f.name) for f in fields(case) if f.name not in UNTOLD]
-        told = repr(values), repr(task.settings)
-        return _word("model", self.salt, digest, *told, code, machine(), self.libraries or "")
+        asked = [type(task).__name__, *(getattr(task, f.name) for f in fields(task)[1:])]
+        words = repr(values), repr(asked), digest
+        return _word("model", self.salt, *words, code, machine(), self.libraries or "")
 
     def run(self, pairs: Iterable[tuple[Case, Engine]]) -> str:
         """The key of all pairs together: two runs with this key compute the same."""

@@ -1,0 +1,91 @@
+"""A folder of users' models in one table: a row each, whatever one of them is."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from given.command import textmech
+from given.otherwise import otherwise
+
+from textmech.reports.compare import own_rows
+from textmech.reports.front.command import own_advice
+from textmech.reports.runs.models import choose_models
+from textmech.reports.runs.request import requested
+from textmech.reports.runs.suite import measure
+from textmech.reports.search.advice.own_model import OwnAdvice, Recipe, Tried
+from textmech.reports.tables import write
+
+SWING = """\
+<mujoco><option timestep="{step}"/><worldbody><body><joint name="swing" axis="0 1 0"/>
+<geom size=".1" pos="0.3 0 -1"/></body></worldbody></mujoco>"""
+NAMES = ["coarse", "fine", "odd; rm -rf ~", "rests", "torn"]
+
+
+@pytest.fixture
+def models(tmp_path: Path) -> Path:
+    folder = tmp_path / "models"
+    folder.mkdir()
+    texts = [SWING.format(step=0.01), SWING.format(step=1e-4), SWING.format(step=1e-4), "<mujoco/>",
+             "<mujoco><worldbody>"]  # fmt: skip
+    for name, text in zip(NAMES, texts, strict=True):
+        (folder / f"{name}.xml").write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.mark.slow
+def test_each_model_of_a_folder_has_a_row(models: Path, tmp_path: Path) -> None:
+    asked = ("run", str(models), "--causes", "--out", str(tmp_path / "out"))
+    done = textmech(*asked, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "out" / "models.csv").read_text(encoding="utf-8")
+    rows = {row["case"]: row for row in csv.DictReader(text.splitlines())}
+    assert sorted(rows) == NAMES
+    assert rows["coarse"]["verdict"] == "beyond"
+    assert 'integrator="' in rows["coarse"]["cure"] or 'timestep="' in rows["coarse"]["cure"]
+    assert rows["fine"]["verdict"] == "agrees"
+    assert rows["fine"]["cure"] == ""
+    assert rows["rests"]["because"] == "nothing moves"
+    assert "does not compile it" in rows["torn"]["because"]
+    table = done.stdout[done.stdout.index("model  ") :].splitlines()
+    assert [line.partition("  ")[0].rstrip() for line in table[1:6]] == NAMES
+    assert table[0].split()[-2:] == ["cure", "and"]
+    again = textmech(*asked, "--json", folder=tmp_path)  # over its own tables
+    told = json.loads(again.stdout)["models"]
+    assert [row["case"] for row in told] == NAMES
+    assert told[0]["cure"] == rows["coarse"]["cure"]
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("the mildest of a model's quantities is called its worst")
+def test_the_worst_quantity_is_told(models: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    chosen = choose_models([str(models / "coarse.xml")])
+    report = measure(requested([], [], [], models=chosen.cases))
+    (line,) = report.lines
+    worst = max(row.ratio or 0.0 for row in report.comparisons if row.setting == "own")
+    assert line.ratio == worst
+    assert write.tables(report, [])["models.csv"].ratio.tolist() == [worst]
+    body = (
+        '<body pos="1 0 0"><joint name="still" axis="0 0 1"/><geom size=".1" pos="0 0 -1"/></body>'
+    )
+    two = (models / "coarse.xml").read_text(encoding="utf-8").replace("</world", f"{body}</world")
+    (models / "coarse.xml").write_text(two, encoding="utf-8")
+    report = measure(requested([], [], [], models=chosen.cases))
+    assert report.lines[0].quantity == "swing.angle"
+    wrong = otherwise(own_rows, "worst = max(own", "worst = min(own")
+    assert wrong.line(report.models[0]).quantity == "still.angle"
+
+
+@pytest.mark.mutant("the dearest cure is told")
+def test_the_cure_is_the_one_that_costs_least(monkeypatch: pytest.MonkeyPatch) -> None:
+    def recipe(change: str, cost: float, ratio: float) -> Recipe:
+        return Recipe(change, "Euler", 0.01, cost, ratio, "swing.angle", 0.01, [])
+
+    tried = Tried("", "", 1.0, recipe("", 1.0, 9.0), cures=[
+        recipe("armature 0.001", 1.0, 2.0), recipe("RK4", 3.7, 0.1)
+    ], cheapest=recipe("5 ms", 2.0, 0.4))  # fmt: skip
+    advice = OwnAdvice("robot", "", 2.0, [tried])
+    assert own_advice._cure(advice) == "5 ms ×2"
+    wrong = otherwise(own_advice, "min(keep", "max(keep")
+    assert wrong._cure(advice) == "RK4 ×3.7"
+    assert own_advice._cure(OwnAdvice("robot", "", 2.0, (), "no limit")) == "no limit"
