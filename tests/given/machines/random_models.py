@@ -1,6 +1,8 @@
-"""Random MJCF models: every kind of joint, spring, actuator and flag that the equations read."""
+"""MJCF models: random ones of all that the equations read, and public ones."""
 
 from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
 from random import Random
 
 JOINTS = (
@@ -18,6 +20,13 @@ FLAGS = ("", 'gravity="disable"', 'spring="disable"', 'damper="disable"', 'clamp
 TENDON = """\
 <fixed name="t" stiffness="4" damping=".5" armature=".03" springlength="-.1 .2">
   <joint joint="{0}" coef=".7"/><joint joint="{1}" coef="-.4"/></fixed>"""
+
+
+def public_models() -> list[Path]:
+    """Returns the models that gymnasium ships; it is not imported."""
+    spec = find_spec("gymnasium")
+    folders = (spec.submodule_search_locations or []) if spec else []
+    return sorted(file for f in folders for file in Path(f).glob("envs/mujoco/assets/*.xml"))
 
 
 def random_model(seed: int) -> str:

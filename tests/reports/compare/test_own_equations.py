@@ -2,13 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
-from given.machines.random_models import random_model
+from given.machines.random_models import public_models, random_model
 from given.otherwise import otherwise
 
 from textmech.cases.mistake import CaseError
@@ -203,16 +202,9 @@ def test_a_keyframe_without_numbers_is_a_mistake(number: str) -> None:
         compiled_text(CHAIN.replace("</mujoco>", key))
 
 
-def public() -> list[Path]:
-    """The models that gymnasium ships; it is not imported."""
-    spec = find_spec("gymnasium")
-    folders = (spec.submodule_search_locations or []) if spec else []
-    return sorted(file for f in folders for file in Path(f).glob("envs/mujoco/assets/*.xml"))
-
-
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("file", public(), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", public_models(), ids=lambda file: file.stem)
 def test_public_models_equations_are_the_textbooks(file: Path) -> None:
     parts = equations(compiled(str(file)), 20)
     assert all(part.holds and (part.off or 0.0) <= 1e-12 for part in parts)

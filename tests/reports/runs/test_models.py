@@ -2,12 +2,15 @@
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from given.command import textmech
+from given.machines.random_models import public_models
 from given.otherwise import otherwise
 
+from textmech.cases.model_case import of_model
 from textmech.reports.compare import own_rows
 from textmech.reports.front.command import own_advice
 from textmech.reports.runs.models import choose_models
@@ -89,3 +92,16 @@ def test_the_cure_is_the_one_that_costs_least(monkeypatch: pytest.MonkeyPatch) -
     wrong = otherwise(own_advice, "min(keep", "max(keep")
     assert wrong._cure(advice) == "RK4 ×3.7"
     assert own_advice._cure(OwnAdvice("robot", "", 2.0, (), "no limit")) == "no limit"
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("file", public_models(), ids=lambda file: file.stem)
+def test_every_public_model_has_rows(file: Path) -> None:
+    """Of its first instants; how far each goes stands in public_models.csv."""
+    report = own_rows.modelled(
+        replace(of_model(str(file), file.name, file.stem), duration=0.04), ()
+    )
+    joints = {row.quantity for row in report.comparisons}
+    assert len(joints) == len(report.comparisons) > 0
+    assert own_rows.line(report).verdict in ("agrees", "beyond", "refused")
