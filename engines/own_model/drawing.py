@@ -7,7 +7,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ...cases.trajectory import Array
-from .model import OwnModel
+from .model import OwnModel, apart, moved
 from .quantities import called
 
 GEOM = mujoco.mjtGeom
@@ -22,7 +22,10 @@ Line = Array
 
 
 def outlines(model: mujoco.MjModel) -> dict[str, list[Line]]:
-    """Returns by body's name the lines that draw its geoms; a plane has none."""
+    """Returns by body's name the lines that draw its geoms; a plane has none.
+
+    A body without any is drawn as the box of its inertia; one without mass, too, has no line.
+    """
     drawn: dict[str, list[Line]] = {}
     for body in range(model.nbody):
         first = int(model.body_geomadr[body])
@@ -30,13 +33,46 @@ def outlines(model: mujoco.MjModel) -> dict[str, list[Line]]:
         shown = [geom for geom in geoms if model.geom_group[geom] < SHOWN] or geoms
         lines = [line for geom in shown for line in _geom(model, geom)]
         if lines or body:
-            drawn[called(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines
+            drawn[called(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines or _as_heavy(model, body)
     return drawn
 
 
-def has_floor(model: mujoco.MjModel) -> bool:
-    """Whether a plane stands on the ground."""
-    return bool(np.any((model.geom_type == GEOM.mjGEOM_PLANE) & (model.geom_bodyid == 0)))
+def floors(model: mujoco.MjModel) -> list[Array]:
+    """Returns of each plane on the ground (3, 3): a place on it [m], and two axes."""
+    planes = np.flatnonzero((model.geom_type == GEOM.mjGEOM_PLANE) & (model.geom_bodyid == 0))
+    return [np.stack([model.geom_pos[k], *_axes(model.geom_quat[k]).T[:2]]) for k in planes]
+
+
+def pivots(model: mujoco.MjModel) -> list[tuple[str, Array]]:
+    """Returns of each joint that only turns its body's name, and its place (3,) [m] on that."""
+    turning = np.isin(model.jnt_type, (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_BALL))
+    body = mujoco.mjtObj.mjOBJ_BODY
+    return [
+        (called(model, body, int(model.jnt_bodyid[k])), model.jnt_pos[k])
+        for k in np.flatnonzero(turning)
+    ]
+
+
+def between(own: OwnModel, times: Array, y: Array, parts: int) -> tuple[Array, Array]:
+    """Returns the times and y (N, k) of a motion with each of its samples cut into so many parts.
+
+    Between two samples each joint moves as the cubic through both with both rates, so that none
+    opens.
+    """
+    m = own.model
+    q, v = y[:, : m.nq], y[:, m.nq : m.nq + m.nv]
+    h, by = np.diff(times)[:, None], apart(m, q[:-1], q[1:])
+    rows, finer = [y[:1]], [times[:1]]
+    for k, s in enumerate([np.arange(1, parts + 1)[:, None] / parts] * len(by)):
+        rates = by[k] / h[k]
+        steps = s * s * (3 - 2 * s) * by[k]
+        steps += h[k] * (s * (1 - s) ** 2 * v[k] - s * s * (1 - s) * v[k + 1])
+        turned = 6 * s * (1 - s) * rates + (1 - s) * (1 - 3 * s) * v[k] + s * (3 * s - 2) * v[k + 1]
+        reached = np.array([moved(m, q[k], step) for step in steps])
+        rest = y[k, m.nq + m.nv :] + s * (y[k + 1] - y[k])[m.nq + m.nv :]
+        rows.append(np.hstack([reached, turned, rest]))
+        finer.append(times[k] + h[k] * s[:, 0])
+    return np.concatenate(finer), np.concatenate(rows)
 
 
 def states(own: OwnModel, y: Array) -> dict[str, Array]:
@@ -49,7 +85,8 @@ def states(own: OwnModel, y: Array) -> dict[str, Array]:
     rate = np.empty(6)
     for k, sample in enumerate(y):
         data.qpos[:], data.qvel[:] = sample[: m.nq], sample[m.nq : m.nq + m.nv]
-        mujoco.mj_fwdPosition(m, data)
+        mujoco.mj_kinematics(m, data)
+        mujoco.mj_comPos(m, data)
         mujoco.mj_comVel(m, data)
         for body in range(m.nbody):
             mujoco.mj_objectVelocity(m, data, mujoco.mjtObj.mjOBJ_XBODY, body, rate, 0)
@@ -60,11 +97,35 @@ def states(own: OwnModel, y: Array) -> dict[str, Array]:
 
 def _geom(m: mujoco.MjModel, geom: int) -> list[Line]:
     """Returns the lines of a geom, in its body's axes; none of one that is no solid."""
-    kind, R = GEOM(m.geom_type[geom]), np.zeros(9)
-    if kind not in SHAPES:
+    kind, R = GEOM(m.geom_type[geom]), _axes(m.geom_quat[geom])
+    return [m.geom_pos[geom] + line @ R.T for line in SHAPES.get(kind, _nothing)(m, geom)]
+
+
+def _nothing(_: mujoco.MjModel, __: int) -> list[Line]:
+    return []
+
+
+def _axes(quaternion: Array) -> Array:
+    """(3, 3): in its columns the axes of an attitude."""
+    R = np.zeros(9)
+    mujoco.mju_quat2Mat(R, quaternion)
+    return R.reshape(3, 3)
+
+
+def _as_heavy(m: mujoco.MjModel, body: int) -> list[Line]:
+    """Returns the box of a body's mass and moments, J = ⅓ m (b² + c²) with half edges.
+
+    It is no larger than what the body joins: it is a picture, not a measure.
+    """
+    if not m.body_mass[body]:
         return []
-    mujoco.mju_quat2Mat(R, m.geom_quat[geom])
-    return [m.geom_pos[geom] + line @ R.reshape(3, 3).T for line in SHAPES[kind](m, geom)]
+    J = m.body_inertia[body]
+    half = np.sqrt(np.maximum(1.5 * (J.sum() - 2 * J) / m.body_mass[body], 0.0))
+    children = np.flatnonzero(m.body_parentid == body)
+    joined = np.linalg.norm([m.body_pos[body], m.body_ipos[body], *m.body_pos[children]], axis=1)
+    if joined.any():
+        half *= min(1.0, joined.max() / (np.linalg.norm(half) or 1.0))
+    return [m.body_ipos[body] + line @ _axes(m.body_iquat[body]).T for line in _cuboid(half)]
 
 
 def _ring(a: int, b: int, corners: int = CORNERS) -> Line:
@@ -96,8 +157,12 @@ def _cylinder(m: mujoco.MjModel, geom: int) -> list[Line]:
 
 
 def _box(m: mujoco.MjModel, geom: int) -> list[Line]:
+    return _cuboid(m.geom_size[geom])
+
+
+def _cuboid(half: Array) -> list[Line]:
     signs = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
-    faces = [m.geom_size[geom] * np.insert(signs, 2, z, axis=1) for z in (-1, 1)]
+    faces = [half * np.insert(signs, 2, z, axis=1) for z in (-1, 1)]
     return [*faces, *np.stack(faces, axis=1)[:4]]
 
 

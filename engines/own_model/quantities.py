@@ -1,6 +1,7 @@
 """Quantities of a model's motion that can be bounded, by its names: `elbow.angle`, `hand.place`."""
 
 import copy
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -87,10 +88,11 @@ def called(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
     name = named(model, kind, number)
     if name.startswith("#"):
         return f"{WORDS[kind]} {number}"
-    sound = name[0].isalnum() or name[0] == "_"
+    sound = (name[0].isalnum() or name[0] == "_") and not NUMBERED.fullmatch(name)
     return name if sound and name.isprintable() else repr(name)
 
 
+NUMBERED = re.compile(r"[a-z]+ \d+")  # as those without a name are called
 WORDS = {
     OBJECT.mjOBJ_BODY: "body", OBJECT.mjOBJ_JOINT: "joint", OBJECT.mjOBJ_SENSOR: "sensor",
     OBJECT.mjOBJ_ACTUATOR: "actuator", OBJECT.mjOBJ_TENDON: "tendon",

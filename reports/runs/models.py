@@ -91,6 +91,8 @@ def _folder(folder: Path) -> Iterator[ModelCase]:
     for path in sorted(folder.rglob("*")):
         if path.suffix.lower() in SUFFIXES and path.is_file() and is_model(path):
             name = path.relative_to(folder).with_suffix("").as_posix()
+            if not (name.isprintable() and (name[0].isalnum() or name[0] == "_")):
+                name = ascii(name)  # a table would misread it, or no file hold it
             yield of_model(str(path.resolve()), str(path), name, in_folder=True)
 
 

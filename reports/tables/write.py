@@ -32,7 +32,7 @@ KEYS = ("case", "engine", "setting", "realised", "ladder", "quantity", "check", 
 KNOWN = 1e-6  # of `allow`: the least certified error that is written
 TIMES = ".9g"  # of an event's time: its difference is a thousandth of a step
 
-Row = TypeVar("Row", Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice)
+Row = TypeVar("Row", Comparison, Rungs, StepError, Certificate, Instant, Cause, Advice, ModelLine)
 
 
 class Rows(Protocol):

@@ -56,6 +56,7 @@ def page(
     \b
       textmech page                                of all cases, beside their reports
       textmech page my_case.yaml --out look        of your own case: reports and page in look/
+      textmech page robot.xml --out look           of a model of yours, MJCF or URDF
       textmech page --settings mine.yaml           all cases, with your settings as a column
     """
     from ...tables import write

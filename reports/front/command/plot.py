@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ....cases.mistake import CaseError, nearest
+from ....cases.mistake import CaseError, nearest, plain
 from ...tables.row import FAILS
 from ..show.console import say
 from .done import DONE
@@ -13,6 +13,7 @@ from .looking import looked_at, named
 from .options import allow_long, named_engines, overwrite
 
 if TYPE_CHECKING:
+    from ...runs.request import Request
     from ...runs.suite import Report
 
 KINDS = (".png", ".svg")
@@ -43,9 +44,12 @@ def plot(
 ) -> None:
     """One case as a picture: its mechanism, a quantity in its tube, its error, its ladder.
 
+    Of a model, an MJCF or URDF file, the right motion is its own equations' limit for h → 0.
+
     \b
       textmech plot four_bar -o four_bar.png
       textmech plot my_case.yaml --quantity rod.angle --engine mujoco -o rod.svg
+      textmech plot robot.xml -o robot.png
     """
     if file.suffix.lower() not in KINDS:
         raise click.UsageError(f"{file.name} is no picture that can be drawn: {' or '.join(KINDS)}")
@@ -57,30 +61,36 @@ def plot(
     from ..page.picture import picture
 
     unasked(file.parent, [file.name], overwrite=overwrite)
-    _one(case, allow_long)
-    report = looked_at(named([case], names, long=allow_long))
+    request = _one(case, names, allow_long)
+    report = looked_at(request)
     if report.mistakes:
         raise CaseError(report.mistakes)
-    name = report.cases[0].name
+    name = next(iter([*report.cases, *(model.case for model in report.models)])).name
     found = motions(report).get(name)
     if found is None:
-        raise click.UsageError(f"{name} is a claim about states: nothing moves")
+        why = next((model.because for model in report.models), "")
+        still = plain(f": {why}") if why else " is a claim about states: nothing moves"
+        raise click.UsageError(f"{plain(name)}{still}")
     chosen = _quantity(quantity, report)
     rows = report.comparisons, report.rungs, report.steps
     save(picture(name, chosen, found, *rows), file)
     DONE.append(f"the picture is {file}")
-    say(f"written to {file}: {chosen}")
+    say(f"written to {file}: {plain(chosen)}")
+    if until := found["curves"].get("until"):
+        say(f"later than {until:.3g} s nothing is judged")
     if failing := next((row.because for row in report.comparisons if row.verdict == FAILS), None):
         say(f"FAILS: {failing}")
 
 
-def _one(case: str, long: bool) -> None:
-    from ...runs.selection import choose_cases
-
-    chosen = choose_cases([case], long=long)
+def _one(case: str, engines: tuple[str, ...], long: bool) -> "Request":
+    """Returns what is asked of the one case or model. Raises click.UsageError of several."""
+    request = named([case], engines, long=long)
+    chosen = [*request.cases, *request.models]
     if len(chosen) > 1:
-        names = ", ".join(one.name for one in chosen)
-        raise click.UsageError(f"{case} has variants; plot one of: {names}")
+        names = ", ".join(plain(one.name) for one in chosen)
+        what = "is a folder of models" if Path(case).is_dir() else "has variants"
+        raise click.UsageError(f"{case} {what}; plot one of: {names}")
+    return request
 
 
 def _quantity(asked: str | None, report: "Report") -> str:

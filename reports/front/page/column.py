@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ....engines import SETTINGS, place
+from ...compare.own_steps import OWN
 from ...runs.selection import BOOK
 from ...tables.row import Comparison, Instant, Rungs, StepError
 from ...tables.spoken import spoken
@@ -52,5 +53,5 @@ def ordered(found: Iterable[Column]) -> list[Column]:
 
 
 def _place(one: Column) -> tuple[bool, str, float, str, int]:
-    setting = place(one.setting)
+    setting = place(one.setting) if one.setting != OWN else -1.0  # a model's own comes first
     return one.engine == BOOK, one.engine, setting, one.setting, WAYS.get(one.realised, 0)

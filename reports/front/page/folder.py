@@ -1,13 +1,15 @@
 """A folder of reports, read: the rows of a run, and what other commands add to them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from ...tables import run_list
 from ...tables.file_content import text as content
+from ...tables.model_line import ModelLine
 from ...tables.row import MUTANTS, Certificate, Comparison, Instant, Rungs, StepError
 from ...tables.write import NAMES, read
 
@@ -32,6 +34,7 @@ class Folder:
     steps: list[StepError]
     instants: list[Instant]
     certificates: list[Certificate]
+    models: list[ModelLine]
     coverage: pd.DataFrame
     beside: dict[str, pd.DataFrame]
     run: str  # the run's name
@@ -54,6 +57,7 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
         steps=read(path / "steps.csv", StepError),
         instants=read(path / "events.csv", Instant),
         certificates=read(path / "reference.csv", Certificate),
+        models=read(path / "models.csv", ModelLine),
         coverage=_text(path / "coverage.csv"),
         beside={
             name: _text(place / name)
@@ -62,6 +66,23 @@ def folder(path: Path, beside: Path | None = None) -> Folder:
             if (place / name).is_file()
         },
         run=run_list.read(path)[NAMES[0]].run,
+    )
+
+
+def of_cases(folder: Folder) -> Folder:
+    """Returns a folder without the rows of models."""
+    models = {row.case for row in folder.models}
+
+    def kept(rows: list[Any]) -> list[Any]:
+        return [row for row in rows if row.case not in models]
+
+    return replace(
+        folder,
+        comparisons=kept(folder.comparisons),
+        rungs=kept(folder.rungs),
+        steps=kept(folder.steps),
+        certificates=kept(folder.certificates),
+        models=[],
     )
 
 

@@ -40,17 +40,21 @@ def listed(
                     {
                         "name": case.name,
                         "variant": case.name.partition(".")[2] or case.name,
-                        "cells": [
-                            (one, cell)
-                            for one in shown
-                            if (cell := found.get((case.name, one))) and cell.kind != REFUSED
-                        ],
+                        "cells": chips(case.name, shown, found),
                     }
                     for case in variants
                 ],
             }
         )
     return out
+
+
+def chips(
+    name: str, shown: Sequence[Column], found: Mapping[Any, Cell]
+) -> list[tuple[Column, Cell]]:
+    """Returns the columns in which a case or a model ran, with its result in each."""
+    cells = [(one, found.get((name, one))) for one in shown]
+    return [(one, cell) for one, cell in cells if cell and cell.kind != REFUSED]
 
 
 # The equations of a case: as its hand-written system states them, with the book's numbers.

@@ -14,10 +14,12 @@ from ....cases.trajectory import Array, Trajectory
 from ...compare.own_rows import Modelled
 from ...runs.suite import Report
 from ...runs.trials import Tried
+from .drawing import LIMIT
 
 POSES = ("x", "y", "z", "angle")
-LIMIT = "limit"
 REFERENCE = ("reference", "", "")  # no setting, and no way to realise one
+RIGHT = (REFERENCE, (LIMIT, "", ""))
+"""How the motion is called that engines are held against: of a model its limit."""
 BY = ("engine", "setting", "realised")
 
 
@@ -68,7 +70,7 @@ def _model_frames(model: Modelled) -> Iterator[tuple[tuple[str, str, str], pd.Da
     """The coordinates of a user's model: of its limit, in a reference's place, and of its steps."""
     assert model.steps is not None
     limit, names = model.steps.limit, [name for name, _ in model.coordinates]
-    motions = {(LIMIT, "", ""): limit.q} | {
+    motions = {RIGHT[1]: limit.q} | {
         ("mujoco", each.setting.name, "native"): each.y[:, : len(names)]
         for each in model.steps.settings
         if each.y is not None
@@ -76,6 +78,7 @@ def _model_frames(model: Modelled) -> Iterator[tuple[tuple[str, str, str], pd.Da
     for way, q in motions.items():
         frame = pd.DataFrame(q, columns=names, index=pd.Index(limit.times, name="t"))
         frame.attrs["units"] = dict(model.coordinates)
+        frame.attrs["until"] = model.steps.until if model.steps.late else None
         yield way, frame
 
 

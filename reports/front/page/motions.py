@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from ....cases.case import Case
-from ....cases.scene.frame import SPACE
 from ....cases.scene.observe import observe
 from ....cases.scene.point import CENTER
 from ....cases.scene.states import MASS_MATRIX
@@ -15,20 +14,18 @@ from ....reference.solve import motion_of
 from ...runs.suite import Report
 from ...runs.trials import Tried
 from . import poses
+from .drawing import Drawing, Motion, thinned
+from .model_motion import model_motion
 from .pack import Packed, packed, packed_by_size
-from .sketch import extent, sketch
+from .sketch import extent, reach, sketch
 
-POINTS = 128  # of a curve at most
 MOST = 64  # times as many poses as samples at most are looked at for the reference to be drawn
 HELD = 2  # parts of a sample: an engine's joints would be drawn two pixels more open than they are
 TRAIL = 400  # points of what a body has drawn behind it: twenty loops of twenty points
-SEEN = 1 / 400  # of what the motion reaches: nearer than that, two drawings are one
-
-Motion = dict[str, Any]
 
 
 def motions(report: Report) -> dict[str, Motion]:
-    """By case, of those that have a reference and claim a motion."""
+    """By case, of those that have a reference and claim a motion, and of models with a limit."""
     of: dict[str, list[Tried]] = {}
     for one in report.tried:
         of.setdefault(one.pair.case.name, []).append(one)
@@ -36,7 +33,7 @@ def motions(report: Report) -> dict[str, Motion]:
         case.name: motion(case, report.solutions[case.name].trajectory, of.get(case.name, []))
         for case in report.cases
         if case.name in report.solutions and case.states is None
-    }
+    } | {model.case.name: drawn for model in report.models if (drawn := model_motion(model))}
 
 
 def way(one: Tried) -> str:
@@ -46,21 +43,19 @@ def way(one: Tried) -> str:
 
 def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
     """The drawing, the poses of the reference and of what differs from it, and all curves."""
-    size = extent(case.scene, reference.states)
+    scene, size = case.scene, extent(case.scene, reference.states)
+    reaches = {name: reach(body) for name, body in scene.bodies.items()}
+    drawing = Drawing(scene.frame, size, sketch(scene, size), reaches)
     ran = [one for one in tried if one.outcome.samples]
-    ghosts = {way(one): _ghost(one, reference.states, case, size) for one in ran}
     times, states = _closely(case, reference, size)
     moves = {**poses.moves(states), **poses.driven(case, times)}
-    return {
-        "axes": case.scene.frame.dimension,
-        "size": float(f"{size:.4g}"),
-        "sketch": sketch(case.scene, size),
-        **poses.drawn(case, times, moves, poses.CLOSE * size).packed(),
-        "trail": _trail(case, times, states),
-        "ghosts": {name: ghost for name, ghost in ghosts.items() if ghost},
-        "covered": sorted(name for name, ghost in ghosts.items() if ghost is None),
-        "curves": _curves(case, reference, ran),
-    }
+    return drawing.motion(
+        "reference",
+        drawing.poses(times, moves, poses.CLOSE).packed(),
+        {way(one): _ghost(one, reference.states, case, drawing) for one in ran},
+        _curves(case, reference, ran),
+        _trail(case, times, states),
+    )
 
 
 def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Mapping[str, Array]]:
@@ -75,11 +70,6 @@ def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Map
         between = between or motion_of(case, forces=False)
         states = between(times).states
     return times, states
-
-
-def thinned(count: int, most: int) -> Any:
-    """Which of so many samples are drawn: evenly, the first and the last among them."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
 def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[Packed] | None:
@@ -99,7 +89,7 @@ def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[Packed]
     return [packed(column) for column in np.ascontiguousarray(way.T)]
 
 
-def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, size: float) -> Any:
+def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, drawing: Drawing) -> Any:
     """Its poses; None where the reference's drawing covers them, nothing where it has none.
 
     held: whether it is drawn at its samples alone, because nobody knows the way between them.
@@ -107,32 +97,17 @@ def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, size: float) 
     own = {body: one.outcome.samples[body] for body in reference if body in one.outcome.samples}
     if not own or not all(np.all(np.isfinite(rows)) for rows in own.values()):
         return {}  # a quantity may be finite where a body is lost
-    if not one.outcome.wanted and _covered(own, reference, case, size):
+    if not one.outcome.wanted and drawing.covers(own, reference):
         return None
     times, moves = one.pair.sampled.times, poses.moves(own)
-    if len(own) == len(reference) and poses.closer(case, times, own, size) > HELD:
+    if len(own) == len(reference) and poses.closer(case, times, own, drawing.size) > HELD:
         return {**poses.Poses(times, moves).packed(), "held": True}
-    return poses.drawn(case, times, moves, poses.GHOST * size).packed()
-
-
-def _covered(
-    own: Mapping[str, Array], reference: Mapping[str, Array], case: Case, size: float
-) -> bool:
-    """Whether no place is off by more than is seen, and no attitude by as much at that size."""
-    place, attitude = case.scene.frame.place, case.scene.frame.attitude
-    for body, rows in own.items():
-        off, other = rows - reference[body], rows + reference[body]
-        turns = np.abs(off[:, attitude])
-        if case.scene.frame is SPACE:  # a quaternion and its opposite are one attitude
-            turns = np.minimum(turns.max(axis=1), np.abs(other[:, attitude]).max(axis=1))
-        if np.max(np.abs(off[:, place])) > SEEN * size or np.max(turns) > SEEN:
-            return False
-    return True
+    return drawing.poses(times, moves, poses.GHOST).packed()
 
 
 def _curves(case: Case, reference: Trajectory, ran: Sequence[Tried]) -> dict[str, Any]:
     """By quantity, at every sample: the reference, and by how much each engine is off it."""
-    kept = thinned(case.samples, POINTS)
+    kept = thinned(case.samples)
     known, found = case.quantities, {}
     for name in (name for name in case.allow if name in known and name != MASS_MATRIX):
         samples = observe(case.scene, reference, name)
@@ -153,7 +128,7 @@ def _off(one: Tried, name: str, reference: Array) -> Any:
         off = np.linalg.norm(samples, axis=1)
     else:
         off = samples - (reference if wanted is None else wanted)
-    kept = thinned(len(off), POINTS)
+    kept = thinned(len(off))
     curve = {"curve": packed_by_size(off[kept])}
     if wanted is not None:  # its own samples
         values = off if samples.ndim > 1 else samples

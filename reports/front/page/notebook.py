@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from .column import Column, ordered
-from .motion_frames import REFERENCE
+from .motion_frames import RIGHT
 from .paint import style
 
 WIDTH, HEIGHT = 8.0, 2.2  # inches: of a plot, one below the other
@@ -39,14 +39,17 @@ def drawn(
 ) -> Drawing:
     """Draws each quantity over time: the reference with its tolerance, and the engines over it.
 
-    motions: by engine, setting and way a frame by time.
+    motions: by engine, setting and way a frame by time; of a model its limit in the reference's
+    place.
     """
+    way = next(way for way in RIGHT if way in motions)
+    reference, (against, *_) = motions[way], way
     figure = Drawing(figsize=(WIDTH, HEIGHT * len(quantities) + 0.6), layout="constrained")
     every = figure.subplots(len(quantities), squeeze=False, sharex=True)[:, 0]
-    shown = ordered(Column(*way) for way in motions if way != REFERENCE)
+    shown = ordered(Column(*way) for way in motions if way not in RIGHT)
     for axes, quantity in zip(every, quantities, strict=True):
-        right = motions[REFERENCE][quantity]
-        axes.plot(right.index, right, color="black", lw=2, label="reference")
+        right = reference[quantity]
+        axes.plot(right.index, right, color="black", lw=2, label=against)
         if quantity in allowed:
             band = right - allowed[quantity], right + allowed[quantity]
             axes.fill_between(right.index, *band, color="black", alpha=0.12, lw=0)
@@ -60,7 +63,10 @@ def drawn(
         bottom, top = axes.get_ylim()
         axes.set_ylim(max(bottom, low - room), min(top, high + room))
         axes.set_ylabel(f"{quantity} [{units[quantity]}]")
-    every[-1].set_xlabel("state" if motions[REFERENCE].index.name == "state" else "t [s]")
+        if until := reference.attrs.get("until"):
+            axes.axvspan(until, right.index[-1], hatch="//", fc="none", ec="black", alpha=0.25)
+            axes.set_title(f"later than {until:.3g} s nothing is judged", loc="right", fontsize=9)
+    every[-1].set_xlabel("state" if reference.index.name == "state" else "t [s]")
     every[0].set_title(title, loc="left")
     if shown:
         figure.legend(*every[0].get_legend_handles_labels(), loc="outside lower left", ncols=3)

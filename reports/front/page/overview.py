@@ -1,19 +1,21 @@
 """The first screen: the result in a sentence and a picture, three motions, and all settings."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
 from ....engines import place
+from ...compare.own_rows import NATIVE
+from ...compare.own_steps import OWN
 from ...runs.selection import BOOK
 from ...tables.row import AGREES, REFUSED, Comparison
 from ...tables.short_numbers import factor
 from ...tables.spoken import SETTINGS, spoken
 from ..show.picture import Curve, curves, drawn, worst
 from .column import Column
+from .drawing import LIMIT, Motion
 from .folder import Folder
 from .heat import Cell
-from .motions import Motion
 from .paint import THEIRS, svg
 
 Cells = Mapping[tuple[str, Column], Cell]
@@ -31,10 +33,8 @@ def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[st
     """The numbers of the head. Rows that are refused are counted by themselves."""
     shares = list(curves(folder.comparisons))
     many = bool(shares) and len({row.case for row in folder.comparisons}) > 1
-    versions = {(row.engine, row.version) for row in folder.comparisons if row.engine != "book"}
     return {
         "cases": len({row.case for row in folder.comparisons}),
-        "versions": sorted(versions),
         "shares": [_share(one, cells) for one in columns],
         "result": result(folder.comparisons) if many else result_of_one(cells),
         "picture": svg(drawn(folder.comparisons, small=True), PICTURE) if many else "",
@@ -120,23 +120,30 @@ def moving(
 
     Where a theme has none that an engine moves otherwise than the textbook, another case stands in.
     """
-    seen = [name for name in motions if _shipped(motions[name]["ghosts"])]
+    seen = [name for name in motions if name in about and _first(motions[name])]
     chosen: list[str] = []
     for themes, name in FIRST:
         of = [n for n in seen if set(themes) & set(about[n]) and n not in chosen]
         chosen += [name] if name in of else of[:1]
-    others = [*seen, *motions]
-    chosen += [name for name in dict.fromkeys(others) if name not in chosen]
+    others = sorted(motions, key=lambda name: not _first(motions[name]))
+    chosen += [name for name in others if name not in chosen]
     return [
-        {"case": name, "ghosts": [_off(key, name, cells) for key in _shipped(ghosts)]}
+        {
+            "case": name,
+            "against": SAID[motions[name]["against"]],
+            "ghosts": [_off(key, name, cells) for key in _first(motions[name])],
+        }
         for name in chosen[: len(FIRST)]
-        for ghosts in [motions[name]["ghosts"]]
     ]
 
 
-def _shipped(ghosts: Iterable[str]) -> list[str]:
-    """Returns those of engines as shipped, without a law or driver of ours."""
-    return [key for key in ghosts if key.split(".")[1:] == ["shipped", "native"]]
+SAID = {"reference": "the textbook", LIMIT: "its limit for h → 0"}
+
+
+def _first(motion: Motion) -> list[str]:
+    """Returns the ghosts of engines as shipped and native; of a model that of its own setting."""
+    setting = OWN if motion["against"] == LIMIT else "shipped"
+    return [key for key in motion["ghosts"] if key.split(".")[1:] == [setting, NATIVE]]
 
 
 def _off(key: str, case: str, cells: Cells) -> dict[str, str]:

@@ -5,10 +5,12 @@ import json
 import re
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
+from functools import cache
 from importlib.resources import files
 from itertools import groupby
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -17,6 +19,7 @@ from markupsafe import Markup, escape
 from ....cases.case import Case
 from ....cases.theme import THEMES, themes
 from ....reference.certificate.errors import ERROR
+from ...compare.own_rows import Modelled
 from ...runs.processes.temporary_folder import temporary_folder
 from ...runs.selection import BOOK
 from ...runs.suite import Report
@@ -29,9 +32,10 @@ from . import beside
 from .advice import advice
 from .beside import records
 from .column import Column, columns
-from .folder import BESIDE, Folder, folder
+from .folder import BESIDE, Folder, folder, of_cases
 from .heat import SHADES, Cell, cells
 from .listed import listed
+from .models import models_section
 from .motions import Motion, motions
 from .overview import moving, overview
 from .rows import rows
@@ -42,26 +46,34 @@ POWER = re.compile(r"(?<=\de)(?:\+0*|(-)0+)(?=\d)")  # of ten: 2e-07 and 2e+03 a
 STYLES = ("style", "heat", "print")
 
 
-def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -> str:
-    """One HTML file. Text of a case is escaped wherever it stands."""
-    shown = columns(folder.comparisons)
-    mapped = [one for one in shown if one.engine != BOOK] or shown
-    found = cells(folder.comparisons, folder.rungs)
-    about = {case.name: themes(case) for case in cases}
+def page(
+    folder: Folder,
+    cases: Sequence[Case],
+    motions: Mapping[str, Motion],
+    models: Sequence[Modelled] = (),
+) -> str:
+    """One HTML file. Text of a case or of a model is escaped wherever it stands."""
+    every, results = columns(folder.comparisons), cells(folder.comparisons, folder.rungs)
     named = {row.case for row in folder.comparisons}
+    scenes = of_cases(folder)
+    shown, found = columns(scenes.comparisons), cells(scenes.comparisons, scenes.rungs)
+    mapped = [one for one in shown if one.engine != BOOK] or shown
+    about = {case.name: themes(case) for case in cases}
     told = [case for case in sorted(cases, key=lambda case: case.name) if case.name in named]
     template = _environment().get_template("page.html")
     return template.render(
         run=folder.run,
-        head=overview(folder, found, shown),
-        moving=moving(motions, about, found),
+        head=overview(scenes, found, shown),
+        models=models_section(folder.models, models, every, results),
+        releases=sorted({(r.engine, r.version) for r in folder.comparisons if r.engine != BOOK}),
+        moving=moving(motions, about, results),
         themes=[(name, THEMES[name]) for name in THEMES if any(name in t for t in about.values())],
         absent={name: beside.absent(name) for name in BESIDE},
         advice=advice(folder.beside.get("advice.csv"), about),
         causes=beside.causes(folder.beside.get("causes.csv")),
         versions=beside.versions(folder.beside.get("versions.csv")),
         names=named,
-        work=bool(folder.steps),
+        work=bool(scenes.steps),
         engines=list(dict.fromkeys(one.engine for one in mapped)),
         groups=[(name, len(list(of))) for name, of in groupby(one.engine for one in mapped)],
         columns=mapped,
@@ -70,14 +82,14 @@ def page(folder: Folder, cases: Sequence[Case], motions: Mapping[str, Motion]) -
         heat=[_line(case, mapped, found, about[case.name]) for case in told],
         stick_slip=stick_slip(told, motions),
         files=listed(told, shown, found, about),
-        trust=trust(folder),
+        trust=trust(scenes),
         mutants=mutants(folder.beside.get(MUTANTS)),
         style=_text(f"{name}.css" for name in STYLES),
         script=_text(f"{name}.js" for name in SCRIPTS),
         motions=embedded(motions),
         rows=embedded(
-            rows(folder, shown)
-            | {"work": work(folder.comparisons, folder.steps, about), "spoken": WORDS}
+            rows(folder, every)
+            | {"work": work(scenes.comparisons, scenes.steps, about), "spoken": WORDS}
         ),
     )
 
@@ -93,8 +105,23 @@ def _environment() -> Environment:
     )
     environment.filters["breakable"] = _breakable
     environment.filters["spoken"] = spoken
+    environment.filters["anchor"] = _anchor
+    environment.filters["urlencode"] = lambda name: quote(_anchor(name), safe="")
     environment.filters["tidy"] = lambda text: POWER.sub(r"\1", str(text))
     return environment
+
+
+def _anchor(name: str) -> str:
+    """Returns the id of a case's section, which no other part of the page has."""
+    return f"case {name}" if name in _taken() else name
+
+
+@cache
+def _taken() -> frozenset[str]:
+    """Returns the ids of the page's own parts."""
+    templates = (files(__package__ or "") / "templates").iterdir()
+    told = [file.read_text(encoding="utf-8") for file in templates if file.name.endswith(".html")]
+    return frozenset(re.findall(r' id="([\w-]+)"', "".join(told)))
 
 
 def _breakable(name: str) -> Markup:
@@ -236,7 +263,7 @@ def write_committed(
     the folder holds what it held.
     """
     unasked(out, [NAME], overwrite=overwrite)
-    replace(out, {NAME: page(folder(rows), cases, motions(report))})
+    replace(out, {NAME: page(folder(rows), cases, motions(report), report.models)})
 
 
 def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> None:
@@ -246,5 +273,5 @@ def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> Non
     with temporary_folder("textmech-page-") as made:
         write.write(frames, made)
         found = folder(made, beside=out)
-    made_of = page(found, report.cases, motions(report))
+    made_of = page(found, report.cases, motions(report), report.models)
     replace(out, lambda: write.texts(frames, out) | {NAME: made_of})

@@ -1,6 +1,6 @@
 """The pictures of one case and quantity on paper: mechanism, tube, error, ladder."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,9 +10,11 @@ from matplotlib.ticker import NullFormatter
 from ....cases.scene.rotation import turned
 from ....cases.trajectory import Array
 from ...tables.row import Comparison, Rungs, StepError
-from .column import Column, column
+from ...tables.short_numbers import factor
+from ...tables.spoken import spoken
+from .column import Column, column, ordered
+from .drawing import LIMIT, Motion
 from .heat import short
-from .motions import Motion
 from .pack import unpacked, unpacked_by_size
 from .paint import INK, style
 from .poses import read
@@ -40,6 +42,8 @@ def picture(
     figure.suptitle(f"{name}: {quantity}", fontsize=12, x=0.01, ha="left")
     shown = list(dict.fromkeys(column(row) for row in own if row.error is not None))
     strobe(axes[0, 0], motion, [one for one in shown if one.key in motion["ghosts"]])
+    if motion["against"] == LIMIT:
+        axes[0, 0].set_title("\n".join(_worst(rows)), fontsize=9, loc="left")
     curves = motion["curves"]["quantities"].get(quantity)
     if curves is None:
         for one in (axes[0, 1], axes[1, 0]):
@@ -47,8 +51,14 @@ def picture(
     else:
         unit = own[0].unit if own else ""
         times = unpacked(motion["curves"]["times"])
-        _tube(axes[0, 1], times, curves, shown, allowed, f"{quantity} [{unit}]")
+        label = f"{quantity} [{unit}]"
+        _tube(axes[0, 1], times, curves, shown, allowed, label, motion["against"])
         _error(axes[1, 0], times, curves, shown, allowed, own)
+        if until := motion["curves"].get("until"):
+            for one in (axes[0, 1], axes[1, 0]):
+                one.axvspan(until, times[-1], hatch="//", fc="none", ec=INK, alpha=0.25, lw=0)
+            late = f"later than {until:.3g} s nothing is judged"
+            axes[1, 0].set_title(late, loc="right", fontsize=9)
     climbed = [one for one in steps if one.quantity == quantity]
     _ladder(axes[1, 1], [rung for rung in rungs if rung.quantity == quantity], climbed, allowed)
     lines = {}
@@ -59,12 +69,31 @@ def picture(
     return figure
 
 
+def _worst(rows: Sequence[Comparison]) -> Iterator[str]:
+    """Yields the worst quantity of each setting."""
+    worst = {column(row): row for row in sorted(rows, key=lambda row: row.ratio or 0.0)}
+    for one in ordered(worst):
+        row = worst[one]
+        far = (
+            spoken(row.verdict)
+            if row.ratio is None
+            else (f"{row.quantity} {factor(row.ratio)} of what is allowed")
+        )
+        yield f"{one.setting}: {far}"
+
+
 def _tube(
-    axes: Any, times: Array, curves: Any, shown: Sequence[Column], allowed: float, label: str
+    axes: Any,
+    times: Array,
+    curves: Any,
+    shown: Sequence[Column],
+    allowed: float,
+    label: str,
+    against: str = "reference",
 ) -> None:
     reference = unpacked(curves["reference"])
     axes.fill_between(times, reference - allowed, reference + allowed, color=INK, alpha=0.12, lw=0)
-    axes.plot(times, reference, color=INK, lw=2, label="reference")
+    axes.plot(times, reference, color=INK, lw=2, label=against)
     low, high = np.min(reference) - allowed, np.max(reference) + allowed
     bottom, top, away = low - ROOM * (high - low), high + ROOM * (high - low), []
     for one, off in _off(curves, shown):
@@ -113,12 +142,13 @@ def _error(
 
 def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[StepError], allowed: float) -> None:
     kinds = [column(rung) for rung in rungs]
+    both = len({rung.ladder for rung in rungs}) > 1
     for rung in rungs:
         own = [s for s in steps if (column(s), s.ladder) == (column(rung), rung.ladder)]
         milliseconds = [1e3 * one.step for one in own]
         parts = [one.error / allowed for one in own]
         order = "" if rung.order is None else f", order {rung.order:.2g}"
-        label = f"{column(rung).title}, {rung.ladder}{order}"
+        label = f"{column(rung).title}{f', {rung.ladder}' if both else ''}{order}"
         look = {**style(column(rung), kinds), "lw": 1.0 if rung.ladder == "held" else 1.6, "ms": 4}
         axes.plot(milliseconds, np.maximum(parts, LEAST), label=label, **look)
     axes.set(xscale="log", xlabel="step h [ms]", ylabel="error / allowed")
@@ -132,7 +162,8 @@ def _off(curves: Any, shown: Sequence[Column]) -> list[tuple[Column, Any]]:
 
 def _curve(axes: Any, x: Array, y: Array, of: Column, among: Sequence[Column]) -> None:
     every = max(1, len(x) // 5)
-    axes.plot(x, y, lw=1.3, ms=4, markevery=every, **style(of, among))
+    first = every * among.index(of) // len(among)  # or one marker would hide another
+    axes.plot(x, y, lw=1.3, ms=4, markevery=(first, every), **style(of, among))
 
 
 def _bound(axes: Any) -> None:

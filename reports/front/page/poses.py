@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....cases.case import Case
-from ....cases.scene.frame import PLANE, SPACE, frame_of
+from ....cases.scene.frame import PLANE, SPACE, Frame, frame_of
 from ....cases.scene.observe import motion_of
 from ....cases.scene.point import GROUND
 from ....cases.scene.rotation import product
 from ....cases.trajectory import Array, Trajectory
 from .pack import CURVE, POSE, Packed, packed, unpacked
-from .sketch import reach
 
 CLOSE = 1 / 4000  # of what the motion reaches, which is drawn 400 pixels wide: a tenth of one
 GHOST = 1 / 1000  # what an engine's motion is drawn to: by what it is off is seen, and not measured
@@ -106,21 +105,24 @@ def driven(case: Case, times: Array) -> Moves:
     }
 
 
-def drawn(case: Case, times: Array, moves: Moves, close: float) -> Poses:
+def drawn(
+    frame: Frame, reaches: Mapping[str, float], times: Array, moves: Moves, close: float
+) -> Poses:
     """Returns as few of the poses as are needed.
 
     No pose that is left out is off the cubics by more than so much [m], wherever its body is drawn.
+    reaches: by body how far [m] it is drawn from its place.
     """
-    kept = _needed(times, moves, _within(case, moves, close))
+    kept = _needed(times, moves, _within(frame, reaches, moves, close))
     return Poses(times[kept], {part: (p[kept], v[kept]) for part, (p, v) in moves.items()})
 
 
-def _within(case: Case, moves: Moves, close: float) -> Array:
+def _within(frame: Frame, reaches: Mapping[str, float], moves: Moves, close: float) -> Array:
     """How far off each column of all poses may be: a turn by what it moves the body's farthest."""
-    n, found = case.scene.frame.dimension, list[float]()
+    n, found = frame.dimension, list[float]()
     for part, (pose, _) in moves.items():
         turns = pose.shape[1] - n
-        arm = reach(case.scene.bodies[part]) if turns else 0.0
+        arm = reaches[part] if turns else 0.0
         turn = close / arm if arm else BARE
         found += [close] * n + [turn if n == len(PLANE.axes) else turn / 2] * turns
     return np.array(found)

@@ -14,6 +14,7 @@ from ....cases.scene.point import CENTER, GROUND, Anchor
 from ....cases.trajectory import Array
 
 BLADE = 0.07  # of what the motion reaches: half of a blade's length
+FLOOR = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]  # a place on it, and two axes
 ZIGZAG = ("spring", "muscle", "linear_muscle")
 
 Sketch = dict[str, Any]
@@ -103,7 +104,7 @@ def _blade(scene: Scene, edge: Any, arm: float) -> dict[str, Any]:
 def _planes(scene: Scene) -> list[dict[str, Any]]:
     """Returns the planes of contact, each with a place and a direction; in space the floor."""
     if scene.frame.dimension == 3:
-        return [{"floor": True}] if scene.contacts or scene.constraints else []
+        return [{"floor": FLOOR}] if scene.contacts or scene.constraints else []
     planes = {getattr(contact, "plane", None) for contact in scene.contacts.values()} - {None}
     told = sorted((plane.name, plane) for plane in planes if plane is not None)
     return [{"at": rounded(plane.at), "along": rounded(plane.along)} for _, plane in told]

@@ -24,7 +24,7 @@ FEW = 3  # models: of more there is one table, a row each
 def overview(models: Sequence[ModelLine]) -> str:
     """Returns a table, a row a model."""
     head = ("model", "own setting, of allowed", "kept from", "cure", "and")
-    rows = [head, *map(_cells, models)]
+    rows = [head, *map(cells, models)]
     if not any(model.cure for model in models):
         rows = [(*row[:3], row[4]) for row in rows]
     *wide, _ = zip(*rows, strict=True)
@@ -35,7 +35,8 @@ def overview(models: Sequence[ModelLine]) -> str:
     )  # fmt: skip
 
 
-def _cells(model: ModelLine) -> tuple[str, ...]:
+def cells(model: ModelLine) -> tuple[str, ...]:
+    """Returns a model's row in words: name, own setting, what keeps all, cure, and what beside."""
     own = spoken(model.verdict)
     if model.ratio is not None:
         own = f"{model.quantity} {factor(model.ratio)}"

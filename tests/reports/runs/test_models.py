@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -34,6 +35,15 @@ def models(tmp_path: Path) -> Path:
     for name, text in zip(NAMES, texts, strict=True):
         (folder / f"{name}.xml").write_text(text, encoding="utf-8")
     return folder
+
+
+def test_a_name_that_a_table_would_misread_stands_in_quotes(tmp_path: Path) -> None:
+    """A spreadsheet computes what begins with =, and no file of text holds half a letter."""
+    (tmp_path / "arms").mkdir()
+    for name in (b"=1+1.xml", b"a\nb.xml", b"a\xff.xml", b"arms/=1+1.xml", "ärmchen.xml".encode()):
+        Path(os.fsdecode(os.fsencode(tmp_path) + b"/" + name)).write_text("<mujoco/>")
+    names = [case.name for case in choose_models([str(tmp_path)]).cases]
+    assert sorted(names) == ["'=1+1'", "'a\\nb'", "'a\\udcff'", "arms/=1+1", "ärmchen"]
 
 
 @pytest.mark.slow

@@ -65,7 +65,7 @@ function animation(name, motion, wanted = null) {
   const held = ghosts.filter((ghost) => ghost.held).map((ghost) => ghost.title).join(', ');
   const behind = trail ? ' The line is the way of the place that is observed.' : '';
   return html('figure', {class: 'moving'}, root, controls, keys,
-    html('figcaption', {}, `The reference in ink.${behind}${pace}` + (covered ? ` Not to be told apart from it at this size: ${covered}.` : '') + (held ? ` Shown at their samples alone: ${held}.` : '')));
+    html('figcaption', {}, `The ${motion.against} in ink.${behind}${pace}` + (covered ? ` Not to be told apart from it at this size: ${covered}.` : '') + (held ? ` Shown at their samples alone: ${held}.` : '')));
 }
 
 function swatch(look) {
@@ -89,7 +89,7 @@ function curvesOf(motion, quantity, wanted = () => true) {
     return {...COLUMN.get(key), x: own, error, y: values};
   });
   const place = (one) => COLUMNS.findIndex(({key}) => key === one.key);
-  return {times, right, engines: engines.sort((a, b) => place(a) - place(b))};
+  return {times, right, until: motion.curves.until, against: motion.against, engines: engines.sort((a, b) => place(a) - place(b))};
 }
 
 // From where to where a tube's plot goes: not all the way with an engine that is lost.
@@ -107,21 +107,21 @@ function leaving(unit, allow, found) {
 }
 
 function tubePlot(quantity, unit, allow, found) {
-  const {times, right, engines} = found, y = tubeRange(allow, found);
+  const {times, right, engines, until, against} = found, y = tubeRange(allow, found);
   const [low, high] = [right.map((v) => v - allow), right.map((v) => v + allow)];
   const pad = (y[1] - y[0]) * .04 || 1;
   return plot({title: `${quantity} over time`, xLabel: 't [s]', yLabel: `${quantity} [${unit}]`, x: [times[0], times[times.length - 1]],
-    y: [y[0] - pad, y[1] + pad], tube: {x: times, low, high},
-    curves: [...engines, {x: times, y: right, look: 'reference', title: 'reference'}]});
+    y: [y[0] - pad, y[1] + pad], tube: {x: times, low, high}, until,
+    curves: [...engines, {x: times, y: right, look: 'reference', title: against}]});
 }
 
-function errorPlot(quantity, allow, {times, engines}, rows) {
+function errorPlot(quantity, allow, {times, engines, until}, rows) {
   const parts = engines.map((e) => ({...e, y: e.error.map((v) => Math.abs(v) / allow)}));
   const top = Math.max(2, most(parts.map((e) => e.y))), worst = rows.filter((r) => r[6] !== null && typeof r[7] === 'number').sort((a, b) => b[7] - a[7])[0];
   const marks = worst && worst[7] > 0 ? [{x: worst[6], y: Math.max(worst[7], 1e-8), text: `${short(worst[7])} at ${short(worst[6])} s`}] : [];
   const low = Math.min(.1, Math.max(1e-8, least(parts.map((e) => [most([e.y])]).filter((m) => m[0] > 0)) / 100));
   return plot({title: `error of ${quantity}`, xLabel: 't [s]', yLabel: 'error / allowed', x: [times[0], times[times.length - 1]],
-    y: [low, Math.max(top, marks.length ? marks[0].y : 0) * 3], yLog: true, bound: 1, curves: parts, marks});
+    y: [low, Math.max(top, marks.length ? marks[0].y : 0) * 3], yLog: true, bound: 1, curves: parts, marks, until});
 }
 
 function ladderPlot(quantity, allow, ladders) {

@@ -113,9 +113,10 @@ function fittings(motion) {
   const end = (now, [part, place]) => placed(now.get(part), place);
   for (const plane of planes) {
     if (plane.floor) {
+      const [place, u, w] = plane.floor, on = (s, t) => place.map((v, i) => v + (s * u[i] + t * w[i]) * size / 2);
       for (const k of [-1, -.5, 0, .5, 1]) {
-        line('rail', (now, window) => [[k * size / 2, -size / 2, 0], [k * size / 2, size / 2, 0]].map(window));
-        line('rail', (now, window) => [[-size / 2, k * size / 2, 0], [size / 2, k * size / 2, 0]].map(window));
+        line('rail', (now, window) => [on(k, -1), on(k, 1)].map(window));
+        line('rail', (now, window) => [on(-1, k), on(1, k)].map(window));
       }
     } else {
       const [[x, y], [u, w]] = [plane.at, plane.along];

@@ -44,8 +44,8 @@ function marker(look, x, y) {
   return setting === 'recommended' ? svg('g', {}, shape, svg('circle', {class: 'marker', cx: x, cy: y, r: .9})) : shape;
 }
 
-// curves: [{x, y, look, title, dots}]; tube: {x, low, high}; bound: y; marks: [{x, y, text}]
-function plot({title, xLabel, yLabel, x, y, xLog = false, yLog = false, curves, tube, bound, marks = []}) {
+// curves: [{x, y, look, title, dots}]; tube: {x, low, high}; bound: y; until: x, what is later is not judged; marks: [{x, y, text}]
+function plot({title, xLabel, yLabel, x, y, xLog = false, yLog = false, curves, tube, bound, marks = [], until = null}) {
   const {width, height, left, right, top, bottom} = PLOT;
   const at = axis(x, xLog, left, width - right), up = axis(y, yLog, height - bottom, top);
   const clip = `clip${plots++}`;
@@ -71,11 +71,12 @@ function plot({title, xLabel, yLabel, x, y, xLog = false, yLog = false, curves, 
     if (yLog) drawn.append(svg('rect', {class: 'tube', x: left, width: inside.width, y: up(bound), height: Math.max(0, height - bottom - up(bound))}));
     drawn.append(svg('path', {class: 'bound', d: `M${left} ${up(bound)}H${width - right}`}));
   }
-  for (const {x: xs, y: ys, look, title: name, dots = 5} of curves) {
+  if (until) drawn.append(svg('rect', {class: 'later', x: at(until), width: Math.max(0, width - right - at(until)), y: top, height: inside.height}, svg('title', {}, 'not judged')));
+  for (const [{x: xs, y: ys, look, title: name, dots = 5}, index] of curves.map((curve, k) => [curve, k])) {
     const line = svg('polyline', {class: `curve ${look}`, points: points(xs, ys)}, svg('title', {}, name));
     const every = Math.max(1, Math.floor(xs.length / dots));
     const shapes = [];
-    for (let k = Math.floor(every / 2); k < xs.length && look !== 'reference'; k += every) shapes.push(marker(look, at(xs[k]), up(ys[k])));
+    for (let k = Math.floor(every * (index + .5) / curves.length); k < xs.length && look !== 'reference'; k += every) shapes.push(marker(look, at(xs[k]), up(ys[k])));
     drawn.append(svg('g', {class: look}, line, shapes));
   }
   for (const {x: mx, y: my, text} of marks) {

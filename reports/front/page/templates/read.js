@@ -11,6 +11,7 @@ async function data(id) {
 
 async function read() {
   [MOTIONS, ROWS] = await Promise.all([data('motions'), data('rows')]);
+  for (const named of [MOTIONS, ROWS.cases]) Object.setPrototypeOf(named, null); // a file may be called constructor
   const own = [...new Set(ROWS.columns.filter((key) => mine(...key.split('.'))).map((key) => key.split('.').slice(0, 2).join('.')))].sort();
   COLUMN = new Map([...ROWS.columns, ...ROWS.work.flatMap((panel) => Object.keys(panel.curves))].map((key) => [key, columnOf(key, own)]));
   COLUMNS = ROWS.columns.map((key) => COLUMN.get(key));

@@ -13,8 +13,10 @@ const folded = (title, content) => {
   return box;
 };
 
-function orders(ladders) {
-  const told = [...ladders].sort((a, b) => a[0] - b[0]).map(([column, , ladder, , , order, limit, usable, verdict]) =>
+function orders(ladders, model) {
+  const steps = [...ladders].sort((a, b) => a[0] - b[0]);
+  if (model) return steps.length ? table('Order of the error in the step', ['setting', 'order', 'usable step [ms]'], steps.map(([column, , , , , order, , usable]) => [COLUMNS[column].title, short(order), usable === null ? '–' : `h ≤ ${milliseconds(usable)}`])) : null;
+  const told = steps.map(([column, , ladder, , , order, limit, usable, verdict]) =>
     [COLUMNS[column].title, word(ladder), short(order), short(limit), usable === null ? '–' : `h ≤ ${milliseconds(usable)}`, word(verdict)]);
   return told.length ? table('Order of the error in the step, and what is left of it', ['setting', 'numbers', 'order', 'stays, however small the step', 'usable step [ms]', 'says'], told) : null;
 }
@@ -26,12 +28,14 @@ function quantityFigures(motion, data, quantity) {
   const found = motion && motion.curves.quantities[quantity] ? curvesOf(motion, quantity) : null;
   const parts = [];
   if (found) {
-    const keys = keyOf([{look: 'reference', title: `reference, ± ${short(allow)} ${unit}`}, ...found.engines]);
-    parts.push(figure(`In its tolerance tube.${leaving(unit, allow, found)}`, tubePlot(quantity, unit, allow, found)),
-      figure('Off the reference; the largest is marked, the shade is within.', errorPlot(quantity, allow, found, rows)));
+    const keys = keyOf([{look: 'reference', title: `${found.against}, ± ${short(allow)} ${unit}`}, ...found.engines]);
+    const late = found.until ? ` Later than ${few(found.until)} s, where it is grey, nothing is judged.` : '';
+    parts.push(figure(`In its tolerance tube.${late}${leaving(unit, allow, found)}`, tubePlot(quantity, unit, allow, found)),
+      figure(`Off the ${found.against}; the largest is marked, the shade is within.`, errorPlot(quantity, allow, found, rows)));
     const climbed = ladderPlot(quantity, allow, ladders);
-    if (climbed) parts.push(figure('Largest error by step: what falls is the step’s, what stays is the model’s. Thin: tuned numbers held as of the largest step.', climbed));
-    return {parts, keys, below: orders(ladders)};
+    const says = found.against === 'reference' ? 'what falls is the step’s, what stays is the model’s. Thin: tuned numbers held as of the largest step.' : 'all of it is the step’s.';
+    if (climbed) parts.push(figure(`Largest error by step: ${says}`, climbed));
+    return {parts, keys, below: orders(ladders, found.against !== 'reference')};
   }
   const climbed = ladderPlot(quantity, allow, ladders);
   if (climbed) parts.push(figure('Largest error by step.', climbed));
@@ -78,11 +82,12 @@ function numbers(data) {
 const causes = (data) => table('The smallest changes that bring a row within', ['engine and setting', 'quantity', 'error', 'cured by', 'options', 'step [ms]', 'error then', 'cost, × its own', 'law'],
   data.causes.map((row) => row.map(word)).map(([engine, setting, quantity, before, cure, options, step, after, cost, law]) =>
     [`${engine} ${setting}`, quantity, few(before), cure, options === '{}' ? '' : options, milliseconds(step), few(after), few(cost), law]));
-const checks = (data) => table('What holds the reference', ['check', 'difference', 'bound', 'certified to', 'verdict'],
+const checks = (data, held) => table(`What holds ${held}`, ['check', 'difference', 'bound', 'certified to', 'verdict'],
   data.checks.map(([check, difference, bound, certified, unit, verdict]) => [word(check), short(difference), short(bound), certified === null ? '' : `${short(certified)} ${word(unit)}`, word(verdict)]));
 
 function build(section) {
-  const body = section.querySelector('.body'), name = section.id, motion = MOTIONS[name];
+  const body = section.querySelector('.body'), {name} = section.dataset, motion = MOTIONS[name];
+  const model = section.dataset.against === 'limit';
   const data = ROWS.cases[name] || {rows: [], ladders: [], instants: [], checks: [], causes: []};
   const names = worstFirst(data), above = html('div', {}), below = html('div', {});
   const figures = html('div', {class: 'figures'}, motion ? animation(name, motion) : null);
@@ -95,7 +100,7 @@ function build(section) {
     above.replaceChildren(...[keys].filter(Boolean));
     below.replaceChildren(orders ? folded('Orders and limits', () => orders) : html('p', {class: 'note'}, 'Other step sizes were not tried.'));
   };
-  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `${addressOf(name)}/${encodeURIComponent(choice.value)}`); });
+  choice.addEventListener('change', () => { show(choice.value); history.replaceState(null, '', `${addressOf(section.id)}/${encodeURIComponent(choice.value)}`); });
   section.show = (quantity) => { if (names.includes(quantity)) show(quantity); };
   const curves = motion || data.ladders.length;
   if (names.length && curves) {
@@ -103,10 +108,10 @@ function build(section) {
     show(names[0]);
   }
   if (curves) body.append(figures, below);
-  else body.append(numbers(data)); // a claim about states: nothing moves, nothing steps
+  else if (!model) body.append(numbers(data)); // a claim about states: nothing moves, nothing steps
   const happened = events(data);
   if (data.causes.length) body.append(folded('Causes, found by experiment', () => causes(data)));
   if (happened) body.append(folded('Events', () => happened));
   if (curves) body.append(folded('All numbers', () => numbers(data)));
-  body.append(folded('How the reference is certified', () => checks(data)));
+  if (!model || data.checks.length) body.append(folded(model ? 'What holds its equations and its limit' : 'How the reference is certified', () => checks(data, model ? 'its equations and its limit' : 'the reference')));
 }

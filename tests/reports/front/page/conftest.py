@@ -3,13 +3,17 @@
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pandas as pd
 import pytest
 from given.scenes.swing import SWING
 
 from textmech.cases.case import Case
+from textmech.cases.model_case import ModelCase, of_model
+from textmech.reports.compare.own_rows import Modelled, modelled
 from textmech.reports.front.page.folder import folder
+from textmech.reports.front.page.model_motion import model_motion
 from textmech.reports.front.page.motions import motions
 from textmech.reports.front.page.page import NAME, page
 from textmech.reports.runs import suite
@@ -62,6 +66,34 @@ VERSIONS = {
 }
 
 
+HOSTILE_MODEL = '"><img src=x onerror=window.struck=1><script>window.struck=2</script>'
+ARM = """
+<mujoco>
+  <option timestep="0.01" {option}/>
+  <worldbody>
+    <geom type="plane" size="5 5 .1"/>
+    <body name="&lt;script&gt;window.struck=3&lt;/script&gt;" pos="0 0 1">
+      <joint name="&lt;b onload=x&gt;" axis="0 1 0"/>
+      <geom type="box" size=".2 .05 .05" pos=".2 0 0"/>
+      <body name="__proto__" pos=".4 0 0">
+        <joint name="__proto__" axis="0 1 0"/>
+        <inertial pos=".1 0 0" mass="1" diaginertia=".01 .02 .015"/>
+        <body pos=".3 0 0"><joint type="ball"/><geom size=".05"/></body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+STILL = "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>"
+LATE = "later a disturbance of 1e-09 exceeds a tolerance"
+
+
+def arm(name: str, text: str = "", **fields: Any) -> ModelCase:
+    """A case of a model that is given as text, shorter than a second."""
+    case = of_model("", name, name, text or ARM.format(option=""))
+    return replace(case, duration=0.4, samples=6, **fields)
+
+
 @pytest.fixture(scope="session")
 def shipped() -> list[Case]:
     """All shipped cases."""
@@ -92,6 +124,46 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
 def whole(report: Report, shipped: list[Case], tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Returns the file of a page of the committed rows and this session's motions."""
     file = tmp_path_factory.mktemp("whole") / NAME
-    text = page(folder(write.HERE), shipped, motions(report))
+    text = page(folder(write.HERE), shipped, motions(report), report.models)
     file.write_text(text, encoding="utf-8")
     return file
+
+
+@pytest.fixture(scope="package")
+def arms() -> SimpleNamespace:
+    """Models of names that attack, one without a limit, and one in which nothing moves."""
+    no_limit = ARM.format(option='integrator="discrete"')
+    cases = [
+        arm(HOSTILE_MODEL, title=HOSTILE_MODEL), arm("constructor"), arm("work"),
+        arm("sub/arm v1.2"), arm("stepped", no_limit), arm("still", STILL),
+    ]  # fmt: skip
+    models = [modelled(case) for case in cases]
+    first = models[0]
+    assert first.steps is not None
+    models[0] = replace(first, steps=replace(first.steps, until=0.2, late=LATE))
+    return SimpleNamespace(models=models, motions=motions_of(models))
+
+
+def motions_of(models: list[Modelled]) -> dict[str, Any]:
+    return {m.case.name: motion for m in models if (motion := model_motion(m))}
+
+
+def report_of(models: list[Modelled]) -> Report:
+    """The report of models alone."""
+    return Report(
+        comparisons=[row for model in models for row in model.comparisons],
+        rungs=[row for model in models for row in model.rungs],
+        steps=[row for model in models for row in model.step_errors],
+        certificates=[row for model in models for row in model.certificates],
+        models=models,
+    )
+
+
+@pytest.fixture(scope="package")
+def models_page(arms: SimpleNamespace, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of these models alone."""
+    place = tmp_path_factory.mktemp("models")
+    write.write(write.tables(report_of(arms.models), []), place)
+    text = page(folder(place), [], arms.motions, arms.models)
+    (place / "index.html").write_text(text, encoding="utf-8")
+    return place / "index.html"

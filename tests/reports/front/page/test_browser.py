@@ -9,12 +9,15 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import mujoco as native
 import numpy as np
 import pytest
 from given.command.browser import Tab, browser, found
 
 from textmech.cases.case import Case
 from textmech.cases.scene.point import GROUND
+from textmech.engines.own_model import opened as cases_of_models
+from textmech.engines.own_model.drawing import outlines
 from textmech.reports.front.page.pack import packed_by_size
 from textmech.reports.front.page.page import NAME, write_measured
 from textmech.reports.front.page.page import page as drawn_page
@@ -24,6 +27,7 @@ from textmech.reports.runs.selection import choose_cases, choose_engines
 
 # The page as a person meets it, in a real browser: it works, and asks nobody for anything.
 
+mujoco: Any = native  # whose functions no type checker sees
 WIDTHS = (390, 900, 1440)
 SHEET = 794  # px: the width of A4
 STOPS = 60  # of the tab key: ten sections, their links, three motions, one choice
@@ -45,7 +49,17 @@ def tab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tab]:
 @pytest.fixture
 def page(tab: Tab, made: SimpleNamespace) -> Iterator[str]:
     """Its address; whatever was done with it, it said no error and asked for nothing else."""
-    address = (made.place / "index.html").as_uri()
+    yield from quiet(tab, made.place / "index.html")
+
+
+@pytest.fixture
+def of_models(tab: Tab, models_page: Path) -> Iterator[str]:
+    """The address of the page of models, which says no error either."""
+    yield from quiet(tab, models_page)
+
+
+def quiet(tab: Tab, file: Path) -> Iterator[str]:
+    address = file.as_uri()
     tab.errors.clear()
     tab.requests.clear()
     yield address
@@ -165,6 +179,53 @@ def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> No
     errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
     found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
     assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
+
+
+def test_models_open_by_their_rows_and_no_name_of_theirs_is_run(tab: Tab, of_models: str) -> None:
+    """Whatever they are called; of each that has a limit a drawing moves."""
+    look(tab, of_models, prefers_reduced_motion="reduce")
+    rows = "#models-table tbody a"
+    for k in range(tab.ask(f"document.querySelectorAll('{rows}').length")):
+        link = f"document.querySelectorAll('{rows}')[{k}]"
+        tab.ask(f"{link}.click()")
+        section = f"document.getElementById(decodeURIComponent({link}.hash.slice(1)))"
+        tab.until(f"{section}.open && {section}.dataset.full")
+        assert tab.ask(f"{section}.dataset.name") == tab.ask(f"{link}.textContent")
+    assert tab.ask("document.querySelectorAll('#models svg.mechanism').length") == 4
+    assert tab.ask("window.struck") is None
+    assert tab.ask("document.querySelectorAll('#models .later').length") == 2  # tube and error
+    late = "document.getElementById('models').textContent"
+    assert "Later than 0.2 s, where it is grey, nothing is judged." in tab.ask(late)
+    assert "reference" not in tab.ask(late)
+    look(tab, f"{of_models}#models?words=sub", width=390)
+    assert tab.ask(each("#models-table tbody tr:not([hidden])", "dataset.words")) == [
+        "sub/arm v1.2"
+    ]
+    assert tab.ask("document.documentElement.scrollWidth") <= 390
+
+
+def test_a_models_body_is_drawn_where_mujoco_has_it(
+    tab: Tab, of_models: str, arms: SimpleNamespace
+) -> None:
+    """The script's places of its lines, against MuJoCo's of the body in the limit's states."""
+    look(tab, f"{of_models}#constructor", prefers_reduced_motion="reduce")
+    model, body = arms.models[1], "__proto__"
+    times = model.limit.times.tolist()
+    shown = tab.ask(
+        """((t, body) => { const m = MOTIONS.constructor, pose = poser(m);
+        const lines = m.sketch.bodies[body].lines.flat();
+        return Array.from(t, (at) => lines.map((p) => placed(pose(at).get(body), p))); })"""
+        f"({times}, {body!r})"
+    )
+    own = cases_of_models.opened(model.case).own
+    lines = np.concatenate(outlines(own.model)[body])
+    data = own.start()
+    for places, q in zip(shown, model.limit.q, strict=True):
+        data.qpos[:] = q
+        mujoco.mj_forward(own.model, data)
+        k = own.model.body(body).id
+        right = data.xpos[k] + lines @ data.xmat[k].reshape(3, 3).T
+        assert np.abs(np.array(places) - right).max() < 1e-3
 
 
 def test_every_shipped_case_opens(tab: Tab, whole: Path) -> None:

@@ -15,8 +15,9 @@ from textmech.cases.case import Case
 from textmech.cases.scene.motion import Motion as Looked
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Array
-from textmech.reports.front.page import motions, picture, poses, sketch
-from textmech.reports.front.page.motions import motion, thinned
+from textmech.reports.front.page import drawing, picture, poses, sketch
+from textmech.reports.front.page.drawing import thinned
+from textmech.reports.front.page.motions import motion
 from textmech.reports.front.page.pack import (
     BASE,
     Packed,
@@ -126,7 +127,8 @@ def moved(case: Case) -> dict[str, Array]:
 
 def drawn(case: Case, module: Any = poses) -> dict[str, Array]:
     """By body its poses at the samples, of those that are kept and packed."""
-    found = module.drawn(case, case.times, module.moves(moved(case)), module.CLOSE)
+    reaches, moves = dict.fromkeys(moved(case), 0.3), module.moves(moved(case))
+    found = module.drawn(case.scene.frame, reaches, case.times, moves, module.CLOSE)
     assert len(found.times) == 2  # cubics hold all of it
     return module.read(found.packed()).at(case.times)
 
@@ -141,10 +143,11 @@ def test_each_body_moves_by_itself(case: Case) -> None:
     assert drawn(case, alike)["crate"] != pytest.approx(moved(case)["crate"][:, :3], abs=1e-3)
 
 
-def covers(case: Case, off: Callable[[Array], Array], module: Any = motions) -> bool:
+def covers(case: Case, off: Callable[[Array], Array], module: Any = drawing) -> bool:
     """Whether a crate that is otherwise by so much looks as the reference's."""
     states = moved(case)
-    return module._covered({"crate": off(states["crate"].copy())}, states, case, 1.0)
+    other = {"crate": off(states["crate"].copy())}
+    return module.Drawing(case.scene.frame, 1.0, {}, {}).covers(other, states)
 
 
 def turned(by: float) -> Callable[[Array], Array]:
@@ -154,20 +157,20 @@ def turned(by: float) -> Callable[[Array], Array]:
 @pytest.mark.mutant("a body that only turns otherwise is covered")
 def test_what_only_turns_otherwise_is_seen(case: Case) -> None:
     assert covers(case, turned(0.0))
-    assert covers(case, turned(0.9 * motions.SEEN))
-    assert not covers(case, turned(1.1 * motions.SEEN))
-    assert not covers(case, lambda rows: rows + np.array([1.1 * motions.SEEN, *[0.0] * 5]))
-    blind = otherwise(motions, " or np.max(turns) > SEEN", "")
+    assert covers(case, turned(0.9 * drawing.SEEN))
+    assert not covers(case, turned(1.1 * drawing.SEEN))
+    assert not covers(case, lambda rows: rows + np.array([1.1 * drawing.SEEN, *[0.0] * 5]))
+    blind = otherwise(drawing, " or np.max(turns) > SEEN", "")
     assert covers(case, turned(1.0), blind)
 
 
 def test_an_attitude_in_space_is_seen_and_its_opposite_quaternion_is_the_same() -> None:
-    case: Any = SimpleNamespace(scene=SHIPPED["heavy_top.cusp"].scene)
+    covers = drawing.Drawing(SHIPPED["heavy_top.cusp"].scene.frame, 1.0, {}, {}).covers
     one = np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
     other = np.array([[0.0, 0.0, 0.0, np.cos(0.05), np.sin(0.05), 0.0, 0.0]])
-    assert motions._covered({"top": -one}, {"top": -one}, case, 1.0)
-    assert motions._covered({"top": one * (1, 1, 1, -1, -1, -1, -1)}, {"top": one}, case, 1.0)
-    assert not motions._covered({"top": other}, {"top": one}, case, 1.0)
+    assert covers({"top": -one}, {"top": -one})
+    assert covers({"top": one * (1, 1, 1, -1, -1, -1, -1)}, {"top": one})
+    assert not covers({"top": other}, {"top": one})
 
 
 def placed(module: Any = picture) -> Array:

@@ -124,6 +124,7 @@ def moved(**parts: Array) -> dict[str, Any]:
 
 
 MOTION: dict[str, Any] = {
+    "against": "reference",
     "axes": 2,
     "trail": None,
     **moved(**{"dot": UP, "ground.hook": RIGHT[:, :2]}),

@@ -36,7 +36,7 @@ OTHERS = [
     for step in STEPS
     for other in ({"ladder": "following"}, {"quantity": "bar.omega"}, {"engine": "pymunk"})
 ]
-FOLDER = Folder([COMPARED], [LADDER], OTHERS + CLIMBED, [INSTANT], [CHECK], COVERED, {}, "run")
+FOLDER = Folder([COMPARED], [LADDER], OTHERS + CLIMBED, [INSTANT], [CHECK], [], COVERED, {}, "run")
 COLUMNS = [column(COMPARED)]
 
 
