@@ -10,7 +10,7 @@ import numpy as np
 
 from ...cases.trajectory import Array
 from .model import OwnModel, apart
-from .numbers import named
+from .numbers import WORDS, named
 from .release import actuators, column
 
 Of = Literal["joint", "place", "turn", "sensor", "force", "energy"]
@@ -89,12 +89,6 @@ def called(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
         return f"{WORDS[kind]} {number}"
     sound = name[0].isalnum() or name[0] == "_"
     return name if sound and name.isprintable() else repr(name)
-
-
-WORDS = {
-    OBJECT.mjOBJ_BODY: "body", OBJECT.mjOBJ_JOINT: "joint", OBJECT.mjOBJ_SENSOR: "sensor",
-    OBJECT.mjOBJ_ACTUATOR: "actuator", OBJECT.mjOBJ_TENDON: "tendon",
-}  # fmt: skip
 
 
 @dataclass(frozen=True)

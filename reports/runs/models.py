@@ -13,9 +13,9 @@ from ...cases.mistake import CaseError, Mistake
 from ...cases.model_case import ModelCase, of_model
 from ...engines.engine import Engine
 from ...engines.mujoco.callbacks.signal import listening
-from ...engines.own_model.limit import with_step
 from ...engines.own_model.model import VERSION, image
 from ...engines.own_model.opened import opened
+from ...engines.own_model.step_law import with_step
 from ..compare.own_rows import Modelled, lost, modelled
 from ..compare.own_steps import OTHERS, OWN, Setting
 from ..compare.own_steps import settings_of as settings_for
@@ -161,7 +161,7 @@ def row_names(case: ModelCase, beside: Settings) -> list[tuple[str, str]] | Case
     except CaseError as error:
         return error
     settings = settings_for(ready.own, beside.others, beside.own)
-    if not ready.own.model.nv or with_step(ready.own.model):
+    if not ready.own.model.nv or with_step(ready.own):
         settings = settings[:1]
     return [(setting.name, quantity.name) for setting in settings for quantity in ready.bars]
 
