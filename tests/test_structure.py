@@ -147,7 +147,7 @@ def top_level(file: Path) -> list[ast.stmt]:
 
 
 BUDGET = {
-    "cases": 9820,
+    "cases": 9830,
     "reference/certificate": 2120,
     "reference/formalisms": 1260,
     "reference/integrators": 1140,
@@ -158,20 +158,20 @@ BUDGET = {
     "reference": 25010,
     "engines/mujoco": 6830,
     "engines/pymunk": 5290,
-    "engines": 16470,
+    "engines": 16980,
     "reports/compare": 5160,
-    "reports/front": 8010,
-    "reports/runs": 2370,
+    "reports/front": 8250,
+    "reports/runs": 2400,
     "reports/search": 2390,
     "reports/tables": 1980,
-    "reports": 19920,
-    "tests/cases": 4070,
-    "tests/engines": 10840,
+    "reports": 20180,
+    "tests/cases": 4100,
+    "tests/engines": 11170,
     "tests/given": 6470,
     "tests/reference": 20110,
-    "tests/reports": 17060,
-    "tests/second": 4320,
-    "tests": 66510,
+    "tests/reports": 17310,
+    "tests/second": 4330,
+    "tests": 67160,
 }
 """Lines of Python that a room may have.
 
