@@ -163,7 +163,8 @@ class Read:
         if through:
             yield (
                 f"corners land faster than {through:g} a second, and in steps of "
-                f"{SHIPPED_STEP:g} s those of textmech's pymunk fall through: believe its finer steps"
+                f"{SHIPPED_STEP:g} s those of textmech's pymunk fall through: "
+                "believe its finer steps"
             )
         if space.sleep_time_threshold < float("inf"):
             yield "nothing falls asleep"
