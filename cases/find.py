@@ -47,7 +47,8 @@ def _in(folder: Path) -> dict[str, Path]:
 
 def find(words: Sequence[str]) -> list[Path]:
     """The file of each word. Raises CaseError that names every word which is none."""
-    known = shipped()
+    known, of_models = shipped(), models()
+    alike = [*known, *of_models]
     paths: list[Path] = []
     mistakes: list[Mistake] = []
     for word in words:
@@ -68,10 +69,12 @@ def find(words: Sequence[str]) -> list[Path]:
             leads = "" if path.exists() or not path.is_symlink() else ": a link that leads nowhere"
             mistakes.append(Mistake(word, 0, 0, "", f"is no file{leads}"))
         elif path.suffix in SUFFIXES:
-            mistakes.append(Mistake(word, 0, 0, "", f"no such file{nearest(path.stem, known)}"))
+            mistakes.append(Mistake(word, 0, 0, "", f"no such file{nearest(path.stem, alike)}"))
+        elif word.partition(".")[0] in of_models:
+            mistakes.append(Mistake(word, 0, 0, "", "is a model, and has no scene"))
         else:
             own = [str(file) for end in SUFFIXES if (file := Path(word + end)).is_file()]
-            hint = nearest(word, known) if not own else f"; did you mean {own[0]!r}?"
+            hint = nearest(word, alike) if not own else f"; did you mean {own[0]!r}?"
             mistakes.append(Mistake(word, 0, 0, "", f"no such case{hint}"))
     if mistakes:
         raise CaseError(mistakes)

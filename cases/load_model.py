@@ -13,7 +13,7 @@ from .fields.signal import Signal
 from .find import case_name, misnamed
 from .language.check.work import too_many_variants
 from .language.document import read
-from .language.grammar.model_file import OVERLAID, ControlTable, ModelFile
+from .language.grammar.model_file import OVERLAID, ControlFile, ModelFile
 from .load import overlay, told_once
 from .mistake import NO_VALUE, CaseError, Mistake, Source
 from .model_case import Law, ModelCase, ModelStart, Steps
@@ -70,7 +70,7 @@ def _case(name: str, data: Mapping[str, Any], source: Source) -> ModelCase:
         source,
         file.title,
         ModelStart(start.keyframe, start.joints, start.rates, random.noun if random else None),
-        _table(control, source) if isinstance(control, ControlTable) else control,
+        _table(control, source) if isinstance(control, ControlFile) else control,
         file.contacts == "on",
         file.duration,
         file.samples,
@@ -83,7 +83,7 @@ def _path(loc: tuple[str | int, ...]) -> tuple[str | int, ...]:
     return tuple(part for part in loc if not (isinstance(part, str) and part.startswith("<")))
 
 
-def _table(control: ControlTable, source: Source) -> dict[str, Law]:
+def _table(control: ControlFile, source: Source) -> dict[str, Law]:
     """Returns the laws of a CSV file's columns, by actuator. Raises CaseError."""
     path = FilePath(source.file).parent / control.table
 

@@ -147,7 +147,7 @@ def top_level(file: Path) -> list[ast.stmt]:
 
 
 BUDGET = {
-    "cases": 9820,
+    "cases": 9830,
     "reference/certificate": 2120,
     "reference/formalisms": 1260,
     "reference/integrators": 1140,
@@ -157,21 +157,21 @@ BUDGET = {
     "reference/systems": 8350,
     "reference": 25010,
     "engines/mujoco": 6830,
-    "engines/pymunk": 5290,
-    "engines": 16530,
+    "engines/pymunk": 5300,
+    "engines": 17050,
     "reports/compare": 5160,
-    "reports/front": 8410,
-    "reports/runs": 2370,
+    "reports/front": 8640,
+    "reports/runs": 2400,
     "reports/search": 2390,
     "reports/tables": 1980,
-    "reports": 20320,
-    "tests/cases": 4070,
-    "tests/engines": 11030,
+    "reports": 20580,
+    "tests/cases": 4100,
+    "tests/engines": 11380,
     "tests/given": 6470,
     "tests/reference": 20110,
-    "tests/reports": 17470,
-    "tests/second": 4320,
-    "tests": 67120,
+    "tests/reports": 17740,
+    "tests/second": 4330,
+    "tests": 67800,
 }
 """Lines of Python that a room may have.
 

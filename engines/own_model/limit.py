@@ -15,18 +15,11 @@ import numpy as np
 from ...cases.trajectory import Array
 from .equations import SLIGHT, Equations, Fineness, NoLimit, begun_as, controls_of
 from .model import BROKEN, OwnModel, apart
-from .release import column, enabled
+from .step_law import with_step
 
 WITHIN = 1e-4  # rad, m: no limit is sought finer than that where it takes many steps
 PARTS = 32  # of the model's own step, at first, where no integrator comes through
 MOST_STEPS, FEW = 3_000_000, 8  # of an answer, by the number of degrees of freedom, FEW at least
-H_IN_THE_LAW = {
-    "discrete": "the integrator `discrete` has the step in its law",
-    "delay": "an actuator's delay or history is counted in steps",
-    "early": "`actearly` takes the activation of the next step",
-    "sleep": "bodies that sleep have the step in their law",
-    "state": "a plugin or a spring that yields has a state outside of qpos, qvel and act",
-}
 
 
 def _loose(parts: int) -> Fineness:
@@ -72,7 +65,7 @@ def limit(
     ever smaller ones until two answers differ by no more than `within` [rad, m], as far as is
     affordable.
     """
-    if reasons := with_step(own.model):
+    if reasons := with_step(own):
         raise NoLimit("; ".join(reasons))
     equations = Equations(own, start or own.start())
     coarse = equations.followed(times, _loose(PARTS // 2))
@@ -95,18 +88,6 @@ def limit(
 def repeated(own: OwnModel, exact: Limit, start: mujoco.MjData) -> Array:
     """Returns y (N, k) from another start, integrated as finely as a limit. Raises NoLimit."""
     return Equations(own, start).followed(exact.times, exact.fineness)
-
-
-def with_step(m: mujoco.MjModel) -> list[str]:
-    """Returns what of a model's law hangs on its step, in words."""
-    has = {
-        "discrete": mujoco.mjtIntegrator(m.opt.integrator).name == "mjINT_DISCRETE",
-        "delay": column(m, "actuator_delay").any() or column(m, "nhistory"),
-        "early": np.any(m.actuator_actearly),
-        "sleep": enabled(m, "mjENBL_SLEEP"),
-        "state": m.nplugin or column(m, "nplastic"),
-    }
-    return [words for name, words in H_IN_THE_LAW.items() if has[name]]
 
 
 def stepped(

@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -14,6 +15,7 @@ from ...cases.trajectory import Array
 from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
 from .control import Controls, Law
 from .numbers import named, numbers
+from .places import Places, places
 from .release import actuators, column, mass_matrix
 
 VERSION = mujoco.__version__
@@ -42,6 +44,8 @@ class OwnModel:
     begun: mujoco.MjData | None = None
     begins: str = ""
     """From where, in words, if it is not by default."""
+    xml: str | Path | None = None
+    """The text or the file that was compiled, if it was one."""
 
     @property
     def controls(self) -> Controls:
@@ -51,7 +55,12 @@ class OwnModel:
     @cached_property
     def tree(self) -> Tree:
         """The model's numbers."""
-        return numbers(self.model, self.start())
+        return numbers(self.model, self.start(), self.places)
+
+    @cached_property
+    def places(self) -> Places:
+        """At which lines of its file its elements stand."""
+        return places(self.model, self.xml, self.file)
 
     def start(self) -> mujoco.MjData:
         """Returns where it starts, by default as `drawn_start` has it with the first keyframe."""
@@ -171,18 +180,20 @@ def _count(word: str, number: int) -> str:
 
 def compiled(file: str) -> OwnModel:
     """Compiles an MJCF or URDF file. Raises CaseError with the compiler's words and line."""
-    return compiled_by(file, lambda: mujoco.MjModel.from_xml_path(file))
+    return compiled_by(file, lambda: mujoco.MjModel.from_xml_path(file), Path(file))
 
 
 def compiled_text(text: str, name: str = "MJCF") -> OwnModel:
     """Compiles the text of a model; name: what it is called. Raises CaseError as `compiled`."""
-    return compiled_by(name, lambda: mujoco.MjModel.from_xml_string(text))
+    return compiled_by(name, lambda: mujoco.MjModel.from_xml_string(text), text)
 
 
-def compiled_by(file: str, compile_: Callable[[], mujoco.MjModel]) -> OwnModel:
-    """Returns the model that a function compiles. Raises CaseError as `compiled`."""
+def compiled_by(
+    file: str, compile_: Callable[[], mujoco.MjModel], xml: str | Path | None = None
+) -> OwnModel:
+    """Returns the model that a function compiles, of some XML. Raises CaseError as `compiled`."""
     try:
-        own = OwnModel(file, compile_())
+        own = OwnModel(file, compile_(), xml=xml)
     except (ValueError, OSError, mujoco.FatalError) as error:
         words = " ".join(str(error).split())
         line = LINE.search(words)

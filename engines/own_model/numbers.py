@@ -19,6 +19,7 @@ from ...cases.tree import (
     Tree,
     TreeJoint,
 )
+from .places import Places
 from .release import actuators, column
 
 KINDS: dict[int, Kind] = {0: "free", 1: "ball", 2: "slide", 3: "hinge"}
@@ -26,13 +27,20 @@ DISABLED = mujoco.mjtDisableBit
 OBJECT = mujoco.mjtObj
 GAINS = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE)
 BIASES = (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE)
+WORDS = {
+    OBJECT.mjOBJ_BODY: "body", OBJECT.mjOBJ_JOINT: "joint", OBJECT.mjOBJ_GEOM: "geom",
+    OBJECT.mjOBJ_SENSOR: "sensor", OBJECT.mjOBJ_ACTUATOR: "actuator", OBJECT.mjOBJ_SITE: "site",
+    OBJECT.mjOBJ_TENDON: "tendon", OBJECT.mjOBJ_FLEX: "flex", OBJECT.mjOBJ_PLUGIN: "plugin",
+    OBJECT.mjOBJ_EQUALITY: "equality",
+}  # fmt: skip
+"""What the kinds of elements are called."""
 JOINTS = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 
 
-def numbers(model: mujoco.MjModel, start: mujoco.MjData) -> Tree:
+def numbers(model: mujoco.MjModel, start: mujoco.MjData, places: Places) -> Tree:
     """Returns the model's numbers; `unread` of them tells what no equation of a tree says.
 
-    start: tells where bodies stand that a user moves (`mocap`).
+    start: tells where bodies stand that a user moves (`mocap`); places: the lines of what is told.
     """
     m, flags = model, model.opt.disableflags
     springs, damps = not flags & DISABLED.mjDSBL_SPRING, not flags & DISABLED.mjDSBL_DAMPER
@@ -51,13 +59,30 @@ def numbers(model: mujoco.MjModel, start: mujoco.MjData) -> Tree:
         [_motor(m, i) for i in range(actuators(m)) if acts and not _strange(m, i)],
         _clamped(m),
         np.array([bool(m.jnt_actgravcomp[j]) for j in m.dof_jntid], dtype=bool),
-        _unread(m),
+        _unread(m, places),
     )
 
 
 def named(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
     """Returns what an element is called; its number, if it has no name."""
     return mujoco.mj_id2name(model, kind, number) or f"#{number}"
+
+
+def element(m: mujoco.MjModel, places: Places, kind: mujoco.mjtObj, number: int) -> str:
+    """Returns kind and name of an element, with its line where that is known."""
+    return places.after(f"{WORDS[kind]} {named(m, kind, number)}", (kind, number))
+
+
+def plugins(m: mujoco.MjModel) -> Iterator[tuple[mujoco.mjtObj, int]]:
+    """Yields the elements that have a plugin; of one that none has the plugin itself."""
+    of = {
+        OBJECT.mjOBJ_BODY: m.body_plugin, OBJECT.mjOBJ_GEOM: m.geom_plugin,
+        OBJECT.mjOBJ_ACTUATOR: m.actuator_plugin, OBJECT.mjOBJ_SENSOR: m.sensor_plugin,
+    }  # fmt: skip
+    for kind, each in of.items():
+        yield from ((kind, int(i)) for i in np.flatnonzero(each >= 0))
+    for plugin in set(range(m.nplugin)) - {int(i) for each in of.values() for i in each}:
+        yield OBJECT.mjOBJ_PLUGIN, plugin
 
 
 def _link(m: mujoco.MjModel, start: mujoco.MjData, body: int) -> Link:
@@ -135,6 +160,8 @@ def _strange(m: mujoco.MjModel, i: int) -> str:
         return "a plugin"
     if column(m, "actuator_ctrlnum")[i] != 1:
         return "another number of controls than one"
+    if column(m, "actuator_delay")[i]:
+        return "a delay"
     if mujoco.mjtDyn(m.actuator_dyntype[i]) != mujoco.mjtDyn.mjDYN_NONE:
         return "a state of its own"
     if mujoco.mjtGain(m.actuator_gaintype[i]) not in GAINS:
@@ -183,14 +210,14 @@ def _clamped(m: mujoco.MjModel) -> Array:
     return bounds
 
 
-def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
+def _unread(m: mujoco.MjModel, places: Places) -> dict[str, list[str]]:
     """Returns what the model has beside, by the part of the equations that lacks it."""
     unread: dict[str, list[str]] = {part: [] for part in PARTS}
     joint, tendon, actuator = OBJECT.mjOBJ_JOINT, OBJECT.mjOBJ_TENDON, OBJECT.mjOBJ_ACTUATOR
 
     def add(part: str, kind: mujoco.mjtObj, numbers: Iterable[int], what: str) -> None:
-        word = {joint: "joint", tendon: "tendon", actuator: "actuator"}[kind]
-        unread[part] += [f"{word} {named(m, kind, i)}: {what}" for i in numbers]
+        for i in map(int, numbers):
+            unread[part].append(f"{element(m, places, kind, i)}: {what}")
 
     for i in range(actuators(m)):
         if what := _strange(m, i):
@@ -215,9 +242,9 @@ def _unread(m: mujoco.MjModel) -> dict[str, list[str]]:
     add(PASSIVE, actuator, np.flatnonzero(damped), "a damping of its own")
     add(MASS, actuator, np.flatnonzero(column(m, "actuator_armature")), "an armature of its own")
     if m.opt.density or m.opt.viscosity:
-        unread[PASSIVE].append("option: a fluid (density, viscosity)")
-    if m.nflex:
-        unread[PASSIVE].append(f"flex: {m.nflex} of them")
-    for plugin in range(m.nplugin):
-        unread[PASSIVE].append(f"plugin {named(m, OBJECT.mjOBJ_PLUGIN, plugin)}")
+        option = places.after("option", "density" if m.opt.density else "viscosity")
+        unread[PASSIVE].append(f"{option}: a fluid (density, viscosity)")
+    add(PASSIVE, OBJECT.mjOBJ_FLEX, range(m.nflex), "its bending and stretching")
+    for kind, i in plugins(m):
+        add(PASSIVE, kind, [i], "a plugin")
     return {part: words for part, words in unread.items() if words}

@@ -11,6 +11,7 @@ from ...cases.mistake import CaseError, Mistake, Path, nearest
 from ...cases.model_case import JOINTS, Law, ModelCase, ModelStart
 from ...cases.trajectory import Array
 from .model import OwnModel, compiled, compiled_text, drawn_rates, drawn_start
+from .numbers import named
 from .quantities import Quantity, joint_quantities, quantities
 from .release import actuators, column
 
@@ -53,8 +54,7 @@ def opened(case: ModelCase) -> Opened:
     bars = dict(_bars(model, case, mistakes))
     if mistakes:
         raise CaseError(mistakes)
-    begins = "" if case.initial == ModelStart() else "where its case says"
-    started = replace(own, laws=laws, begun=begun, begins=begins)
+    started = replace(own, laws=laws, begun=begun, begins=_begins(model, case.initial))
     for number in laws:
         begun.ctrl[number] = started.controls.at(0.0)[number]
     return Opened(started, bars)
@@ -123,6 +123,20 @@ def _start(own: OwnModel, case: ModelCase, mistakes: list[Mistake]) -> mujoco.Mj
             except NumberMistake as error:
                 mistakes.append(case.mistake(path, str(error)))
     return data
+
+
+def _begins(model: mujoco.MjModel, initial: ModelStart) -> str:
+    """Returns in words from where a case starts; nothing, if it is as by default."""
+    if initial == ModelStart():
+        return ""
+    words = "where it stands"
+    if model.nkey or initial.keyframe:
+        words = f"its keyframe {initial.keyframe or named(model, OBJECT.mjOBJ_KEY, 0)}"
+    if initial.random_rates is not None:
+        most, seed = initial.random_rates.most, initial.random_rates.seed
+        words += f", with rates up to {most:g} drawn by chance (seed {seed})"
+    over = [*initial.joints, *(f"the rate of {name}" for name in initial.rates)]
+    return f"{words}; {', '.join(over)} as its case says" if over else words
 
 
 def _set(

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...cases.trajectory import Array
 from .model import OwnModel, apart
-from .numbers import named
+from .numbers import WORDS, named
 from .release import actuators, column
 
 Of = Literal["joint", "place", "turn", "sensor", "force", "energy"]
@@ -93,10 +93,6 @@ def called(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
 
 
 NUMBERED = re.compile(r"[a-z]+ \d+")  # as those without a name are called
-WORDS = {
-    OBJECT.mjOBJ_BODY: "body", OBJECT.mjOBJ_JOINT: "joint", OBJECT.mjOBJ_SENSOR: "sensor",
-    OBJECT.mjOBJ_ACTUATOR: "actuator", OBJECT.mjOBJ_TENDON: "tendon",
-}  # fmt: skip
 
 
 @dataclass(frozen=True)

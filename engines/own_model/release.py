@@ -52,7 +52,9 @@ ABSENT: Mapping[str, Callable[[mujoco.MjModel], Array]] = {
     "actuator_ctrlnum": _all("nu", 1),
     "actuator_outadr": _each,
     "actuator_delay": _all("nu", 0),  # 3.5
-    "nhistory": lambda _: np.array(0),
+    "actuator_history": _all("nu", 0, 1),
+    "sensor_delay": _all("nsensor", 0),
+    "sensor_history": _all("nsensor", 0, 1),
     "actuator_armature": _all("nu", 0),  # 3.7
     "actuator_damping": _all("nu", 0),
     "actuator_dampingpoly": _all("nu", 0, 1),
@@ -62,6 +64,6 @@ ABSENT: Mapping[str, Callable[[mujoco.MjModel], Array]] = {
     "tendon_stiffnesspoly": _all("ntendon", 0, 1),
     "jnt_plasticadr": _all("njnt", -1),  # 4.0
     "tendon_plasticadr": _all("ntendon", -1),
-    "nplastic": lambda _: np.array(0),
+    "flex_plasticadr": _all("nflex", -1),
 }
 """What a release before the one that brought a column means by having none."""

@@ -93,5 +93,6 @@ def short_times(own: OwnModel, step: float | None = None) -> list[tuple[str, flo
     ):
         least = 0.0 if off & DISABLED.mjDSBL_REFSAFE else SHORT * (step or m.opt.timestep)
         for i in map(int, np.flatnonzero((times > 0) & (times < least) & acts)):
-            found.append((f"{word} {named(m, kind, i)}", float(times[i])))
+            name = own.places.after(f"{word} {named(m, kind, i)}", (kind, i))
+            found.append((name, float(times[i])))
     return found

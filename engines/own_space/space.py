@@ -14,7 +14,7 @@ from pymunk.space import Space
 from ...cases.scene import Scene
 from ...cases.scene.observe import observe
 from ...cases.trajectory import Trajectory, X, Y
-from ..pymunk.model.contact import ABOVE
+from ..pymunk.model.contact import tip_radius
 from ..pymunk.settings.settings import SHIPPED_STEP
 from .constraints import read_constraints
 from .meeting import DEEP, beside, depth, first_overlap
@@ -28,8 +28,6 @@ SOLVER = (
     ("error_bias", "max_bias"),
 )
 """Numbers of pymunk's solver, which are no part of a scene: of a Space, and of constraints."""
-FAST = ABOVE / SHIPPED_STEP
-"""Units a second: faster, what has no rim falls through planes, as the adapter builds it."""
 Pair = tuple[Outline, Outline]
 
 
@@ -131,7 +129,8 @@ class Read:
         bar = float(f"{TOLERANCE * size:.2g}")
         lands = [near[name] for name in opened if not self._round(scene, name)]
         fast = max((np.max(-np.diff(gap)) / motion.times[1] for gap in lands), default=0.0)
-        said = "; ".join(self._said(size, fast=fast > FAST))
+        most = tip_radius(scene) / SHIPPED_STEP
+        said = "; ".join(self._said(size, through=most if fast > most else 0.0))
         return {
             **data,
             "title": f"{data['title']}: {said}",
@@ -146,7 +145,7 @@ class Read:
         touching = (scene.contacts if contact in scene.contacts else scene.pairs)[contact]
         return scene.bodies[touching.body].radius is not None
 
-    def _said(self, size: float, *, fast: bool) -> Iterator[str]:
+    def _said(self, size: float, *, through: float) -> Iterator[str]:
         """Yields what a user should know of how it is read."""
         yield f"its units are written as m and kg, places may be off by {TOLERANCE:g} of {size:.3g}"
         space, plain = self.reading.space, Space()
@@ -161,10 +160,11 @@ class Read:
         if other:
             told = ", ".join(f"{name}: {number!r}" for name, number in other.items())
             yield f"with its solver's numbers it runs by --settings FILE: pymunk: {{{told}}}"
-        if fast:
+        if through:
             yield (
-                f"corners land faster than {FAST:g} a second, and in steps of {SHIPPED_STEP:g} s "
-                "those of textmech's pymunk fall through: believe its finer steps"
+                f"corners land faster than {through:g} a second, and in steps of "
+                f"{SHIPPED_STEP:g} s those of textmech's pymunk fall through: "
+                "believe its finer steps"
             )
         if space.sleep_time_threshold < float("inf"):
             yield "nothing falls asleep"

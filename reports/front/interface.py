@@ -147,7 +147,7 @@ def load(word: Word | Sequence[Word] = ()) -> list[Any]:
     So is a `pymunk.Space`, or the name of a function that makes one, as `mygame:make_space`.
     Raises CaseError with all mistakes of all files, and where two cases have one name.
     """
-    from ..runs.models import choose_models
+    from ..runs.chosen_models import choose_models
     from ..runs.selection import choose_cases, told_apart
 
     words = _listed("cases", _given(word), (str, Path, Case, ModelCase))

@@ -1,99 +1,34 @@
-"""Models of the user's own: from the words of a command line to their cases, and to their rows."""
+"""Models of the user's own, from their cases to their rows."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
-from ...cases.find import models as shipped_models
 from ...cases.language.check.work import LIMIT
-from ...cases.load_model import has_model, load_model
 from ...cases.mistake import CaseError, Mistake
-from ...cases.model_case import ModelCase, of_model
+from ...cases.model_case import ModelCase
 from ...engines.engine import Engine
 from ...engines.mujoco.callbacks.signal import listening
-from ...engines.own_model.limit import with_step
 from ...engines.own_model.model import VERSION, image
 from ...engines.own_model.opened import opened
+from ...engines.own_model.step_law import with_step
 from ..compare.own_rows import Modelled, lost, modelled
 from ..compare.own_steps import OTHERS, OWN, Setting
 from ..compare.own_steps import settings_of as settings_for
 from ..tables.row import REFUSED
 from .processes.pool import Died
-from .selection import choose_engines, is_model, nameable
+from .selection import choose_engines
 from .task_results import Results
 
 ENGINE = "mujoco"
 OPTIONS_OF = "options"
 """What the setting `own` of a call in Python is called: a model has one of that name."""
-SUFFIXES = (".xml", ".urdf")
 OPTIONS = (
     "step", "integrator", "solver", "cone", "iterations", "ls_iterations", "noslip_iterations",
     "tolerance", "ls_tolerance", "noslip_tolerance", "impratio",
 )  # fmt: skip
 """Options of a file of settings that say nothing of a scene's elements."""
-
-
-@dataclass(frozen=True)
-class Chosen:
-    """The cases of models among some words, the other words, and the mistakes of the first."""
-
-    cases: Sequence[ModelCase]
-    others: Sequence[str]
-    mistakes: Sequence[Mistake]
-
-
-def choose_models(words: Sequence[str], *, long: bool = False) -> Chosen:
-    """Returns the cases of models: files of XML, case files with a `model`, folders, shipped names.
-
-    No words choose all shipped ones. A mistake costs its own file.
-    """
-    known = shipped_models()
-    others: list[str] = []
-    mistakes: list[Mistake] = []
-    cases: dict[str, ModelCase] = {}
-    for word in words or known:
-        try:
-            path = known.get(word.partition(".")[0], Path(word))
-            if word and path.is_dir():  # no word is the folder here to Path
-                some = [*_folder(path)]
-                if not some:
-                    others.append(word)
-            elif path.is_file() and is_model(path):
-                nameable(word)
-                some = [of_model(str(path.resolve()), word, path.stem)]
-            elif path.is_file() and has_model(path):
-                nameable(word)
-                some = _variants(load_model(path, long=long), word, path)
-            else:
-                others.append(word)
-                continue
-        except CaseError as error:
-            mistakes += error.mistakes
-            continue
-        except OSError as error:
-            mistakes.append(Mistake(word, 0, 0, "", f"cannot be read: {error.strerror}"))
-            continue
-        for case in some:
-            name = case.name if case.name not in cases else case.file
-            cases[name] = replace(case, name=name)
-    return Chosen([*cases.values()], others, mistakes)
-
-
-def _variants(cases: list[ModelCase], word: str, path: Path) -> list[ModelCase]:
-    """Returns the one variant that a shipped name's word is of, or all."""
-    return [case for case in cases if case.name == word] or cases if path.stem != word else cases
-
-
-def _folder(folder: Path) -> Iterator[ModelCase]:
-    """Yields the models below a folder, called by their paths in it."""
-    for path in sorted(folder.rglob("*")):
-        if path.suffix.lower() in SUFFIXES and path.is_file() and is_model(path):
-            name = path.relative_to(folder).with_suffix("").as_posix()
-            if not (name.isprintable() and (name[0].isalnum() or name[0] == "_")):
-                name = ascii(name)  # a table would misread it, or no file hold it
-            yield of_model(str(path.resolve()), str(path), name, in_folder=True)
 
 
 @dataclass(frozen=True)
@@ -163,15 +98,20 @@ def row_names(case: ModelCase, beside: Settings) -> list[tuple[str, str]] | Case
     except CaseError as error:
         return error
     settings = settings_for(ready.own, beside.others, beside.own)
-    if not ready.own.model.nv or with_step(ready.own.model):
+    if not ready.own.model.nv or with_step(ready.own):
         settings = settings[:1]
     return [(setting.name, quantity.name) for setting in settings for quantity in ready.bars]
 
 
 def digest(task: Task) -> str | CaseError:
-    """Returns a word of MuJoCo's release and all numbers of the compiled model; or why not."""
+    """Returns a word of MuJoCo's release and the compiled model; or why not.
+
+    That is of all its numbers, and of the lines that its rows name.
+    """
     try:
-        return sha256(VERSION.encode() + image(opened(task.case).own.model)).hexdigest()
+        own = opened(task.case).own
+        told = f"{VERSION} {own.places}".encode()
+        return sha256(told + image(own.model)).hexdigest()
     except CaseError as error:
         return error
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+from contextlib import nullcontext
 from dataclasses import replace
 from inspect import signature
 from pathlib import Path
@@ -14,7 +15,7 @@ from textmech.cases import find
 from textmech.cases.fields.friction_grammar import Coefficients, DryFriction
 from textmech.cases.fields.number import amount
 from textmech.cases.fields.part import written
-from textmech.cases.find import shipped
+from textmech.cases.find import models, shipped
 from textmech.cases.language.document import read
 from textmech.cases.language.grammar import file as grammar
 from textmech.cases.language.grammar import joint
@@ -22,11 +23,14 @@ from textmech.cases.language.grammar import scene as words
 from textmech.cases.language.grammar.contact import Contact as ContactSpec
 from textmech.cases.language.grammar.contact import Rolling
 from textmech.cases.language.grammar.file import File
+from textmech.cases.language.grammar.model_file import ModelFile
 from textmech.cases.language.grammar.scene import Scene
 from textmech.cases.language.grammar.scene import SpatialScene as SpatialWords
 from textmech.cases.language.grammar.schema import SCHEMA, text
 from textmech.cases.language.grammar.start import Initial, SpatialStart, Turn
 from textmech.cases.load import load
+from textmech.cases.load_model import load_model
+from textmech.cases.mistake import CaseError
 from textmech.cases.scene import (
     Anchor,
     Bounds,
@@ -198,9 +202,10 @@ def test_current() -> None:
 @pytest.mark.slow
 def test_says_every_key() -> None:
     schema = json.loads(text())
-    assert set(schema["properties"]) == set(File.model_fields)
+    for branch, file in (("then", ModelFile), ("else", File)):
+        assert set(schema[branch]["properties"]) == set(file.model_fields)
+        assert schema[branch]["additionalProperties"] is False
     assert "null" not in text()
-    assert schema["additionalProperties"] is False
 
 
 def found(path: Path) -> list[str]:
@@ -211,7 +216,34 @@ def found(path: Path) -> list[str]:
 
 
 def test_shipped_files_are_valid() -> None:
-    assert {path.name: places for path in shipped().values() if (places := found(path))} == {}
+    files = (shipped() | models()).values()
+    assert {path.name: places for path in files if (places := found(path))} == {}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("control: {a: 1, b: {held: {times: [0, 1], values: [0, 2]}}, table: 3}", []),
+        ("control: {table: policy.csv, between: lines}", []),
+        ("initial: {joints: {a: 30 deg, b: [1, 0, 0, 0]}, random_rates: {seed: 3}}", []),
+        ("allow: 1.0e-3\nvariants: {far: {duration: 3}}", []),
+        ("scene: {}", [".scene: additionalProperties"]),
+        ("intial: {}", [".intial: additionalProperties"]),
+        ("initial: {keyfram: home}", [".initial.keyfram: additionalProperties"]),
+        ("control: {a: {sinus: {amplitude: 1}}}", [".control: anyOf"]),
+        ("contacts: maybe", [".contacts: enum"]),
+        ("duration: -1", [".duration: anyOf"]),
+        ("variants: {far: {title: x}}", [".variants.far.title: enum"]),
+    ],
+)
+def test_a_model_has_its_own_words(tmp_path: Path, text: str, said: list[str]) -> None:
+    """Which `load_model` takes and refuses too."""
+    path = tmp_path / "own.yaml"
+    path.write_text(f"model: robot.xml\n{text}\n", encoding="utf-8")
+    (tmp_path / "policy.csv").write_text("time,a\n0,1\n1,2\n")
+    assert found(path) == said
+    with nullcontext() if not said else pytest.raises(CaseError):
+        load_model(path)
 
 
 @pytest.mark.parametrize(

@@ -46,6 +46,22 @@ UNREAD = {
     "smooth": "(2.95) stands in the book and not in the README; it is compared with the exact law",
     "band": "as smooth",
     "sharpness": "as smooth",
+    **dict.fromkeys(
+        (
+            "model",
+            "control",
+            "keyframe",
+            "rates",
+            "random_rates",
+            "most",
+            "held",
+            "between",
+            "lines",
+            "on",
+            "off",
+        ),
+        "of a model of a user's own, which an engine compiles",
+    ),
 }
 """Words of the grammar that are not read, with the reason."""
 

@@ -1,6 +1,6 @@
 """The keys that may stand in a case file. cases/README.md explains every one by an example."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, get_args
 
@@ -188,10 +188,10 @@ class Deviation(Part):
 FIXED = ("title", "source", "variants")  # what a variant cannot change
 
 
-def _overlay_schema(schema: dict[str, Any]) -> None:
-    keys = [key for key in File.model_fields if key not in FIXED]
+def overlay_schema(schema: dict[str, Any], keys: Sequence[str]) -> None:
+    """Alters the schema of variants: each has some of the keys."""
     for pattern in schema["patternProperties"]:
-        overlay = {"type": "object", "propertyNames": {"enum": keys}}
+        overlay = {"type": "object", "propertyNames": {"enum": [*keys]}}
         schema["patternProperties"][pattern] = overlay
 
 
@@ -248,7 +248,7 @@ class File(Part):
     variants: dict[Name, dict[str, Any]] = Field(
         {},
         description="each a deep overlay of the keys above, but title and source",
-        json_schema_extra=_overlay_schema,
+        json_schema_extra=lambda schema: overlay_schema(schema, OVERLAID),
     )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
-from pydantic import Discriminator, Field, Tag, create_model
+from pydantic import ConfigDict, Discriminator, Field, Tag, create_model
 
 from ...fields.field import AnyUnit, Bound, In
 from ...fields.number import Amount
@@ -13,6 +13,7 @@ from ...fields.signal import Signal
 from ...fields.signal_grammar import LAWS, Following, Table, law_fields
 from ...fields.text import Text, Word
 from ...model_case import DURATION, JOINTS, SAMPLES, TOLERANCE, Law, RandomRates, Steps
+from .file import overlay_schema
 
 ModelName = Annotated[str, Text(description="a name of the model's")]
 Number = Annotated[Amount, AnyUnit()]
@@ -56,6 +57,7 @@ class Control(Following):
     """A law in time of a control; `held`: a table whose values stay until the next one."""
 
     laws: ClassVar[tuple[Any, ...]] = (*LAWS, "held")
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [law]} for law in laws]})
     held: Any = None
 
     @property
@@ -90,7 +92,7 @@ File = Annotated[str, Text(description="a CSV file: `time` [s], and a column for
 BETWEEN = ("held", "lines")
 
 
-class ControlTable(Part):
+class ControlFile(Part):
     """Controls from a CSV file; between its times each value is held, or lines go between them."""
 
     table: File
@@ -106,12 +108,17 @@ def _kind(value: object) -> str:
 
 
 Controls = Annotated[
-    Annotated[ControlTable, Made(File, lambda file: ControlTable(table=file)), Tag("<file>")]
-    | Annotated[ControlTable, Tag("<table>")]
+    Annotated[ControlFile, Made(File, lambda file: ControlFile(table=file)), Tag("<file>")]
+    | Annotated[ControlFile, Tag("<table>")]
     | Annotated[dict[ModelName, Driven], Tag("<map>")],
     Discriminator(_kind),
 ]
 Bar = Annotated[Amount, Bound()]
+
+
+def _either(schema: dict[str, Any]) -> None:
+    """Alters the schema of controls: a map with a `table` may name a file or an actuator."""
+    schema["anyOf"] = schema.pop("oneOf")
 
 
 def _everywhere(bar: Amount) -> dict[str, Amount]:
@@ -136,12 +143,16 @@ class ModelFile(Part):
     model: Annotated[str, Text(description="the MJCF or URDF, beside this file")]
     title: Annotated[str, Text()] = ""
     initial: Start = Field(default_factory=_nowhere)
-    control: Controls = Field({})
+    control: Controls = Field({}, json_schema_extra=_either)
     contacts: Annotated[str, Word("word", ("on", "off"))] = "on"
     duration: Annotated[float, In("s", above=0)] = DURATION
     samples: int = Field(SAMPLES, ge=3, description="number of times at which anything is compared")
     allow: Allowed = Field({JOINTS: Amount(TOLERANCE)})
-    variants: dict[Name, dict[str, Any]] = Field({})
+    variants: dict[Name, dict[str, Any]] = Field(
+        {},
+        description="each a deep overlay of the keys above, but title",
+        json_schema_extra=lambda schema: overlay_schema(schema, OVERLAID),
+    )
 
     def path(self, beside: str) -> str:
         """The model's file, which stands beside the case's unless its path is whole."""

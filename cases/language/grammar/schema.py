@@ -12,7 +12,9 @@ from pydantic.json_schema import GenerateJsonSchema, models_json_schema
 from pydantic_core import core_schema
 
 from .file import File, SpatialFile
+from .model_file import ModelFile
 
+FILES: tuple[Any, ...] = (File, SpatialFile, ModelFile)
 SCHEMA = Path(__file__).parents[2] / "case.schema.json"
 
 
@@ -39,15 +41,15 @@ _IN_SPACE = {"required": ["scene"], "properties": {"scene": {"required": ["space
 def text() -> str:
     """The schema as it stands in cases/case.schema.json.
 
-    What may stand in a file depends on whether its scene says `space: 3`, and what has to on
-    whether it claims states.
+    What may stand in a file depends on whether it has a `model`, and else on whether its scene says
+    `space: 3`, and what has to on whether it claims states.
     """
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "textmech case"}
     made, definitions = models_json_schema(
-        [(File, "validation"), (SpatialFile, "validation")], schema_generator=_Plain
+        [(file, "validation") for file in FILES], schema_generator=_Plain
     )
     known = _without_titles(definitions["$defs"])
-    plane, space = (known.pop(_name(made[model, "validation"])) for model in (File, SpatialFile))
+    plane, space, model = (known.pop(_name(made[file, "validation"])) for file in FILES)
     apart = [key for key, value in plane["properties"].items() if value != space["properties"][key]]
     both = {key: {} if key in apart else value for key, value in plane["properties"].items()}
     of_plane, of_space = (
@@ -56,7 +58,8 @@ def text() -> str:
     choice = {"if": _IN_SPACE, "then": of_space, "else": of_plane}
     needed = [key for key in plane["required"] if key not in _MOVES]
     moves = {"anyOf": [_OF_STATES, {"required": [*_MOVES]}]}
-    schema = {"$defs": known, **plane, "properties": both, "required": needed, **choice, **moves}
+    scene = {**plane, "properties": both, "required": needed, **choice, **moves}
+    schema = {"$defs": known, "if": {"required": ["model"]}, "then": model, "else": scene}
     return json.dumps(head | schema, indent=1, ensure_ascii=False) + "\n"
 
 

@@ -9,7 +9,7 @@ import math
 
 from ....cases.scene import Contact
 from ..model.chipmunk_state import reading
-from ..model.contact import ABOVE, PASSES, over
+from ..model.contact import PASSES, above, tip_radius
 from ..model.world import World
 
 BELOW = 1e-12  # m: so deep it has come down for sure
@@ -53,7 +53,8 @@ class Foot:
     def __init__(self, world: World, contact: Contact, seed: float, carrier: Carrier) -> None:
         self.contact, self.carrier = contact, carrier
         self.shape = world.wheels[contact.name]
-        self.meets, self.stands = True, self.shape.radius > ABOVE
+        self._size = tip_radius(world.scene)
+        self.meets, self.stands = True, self.shape.radius > self._size
         self._seed, self._meeting = seed, self.shape.filter
         self._point = world.scene.bodies[contact.body].points[contact.at.point]
         self._far = math.hypot(*self._point)
@@ -102,11 +103,12 @@ class Foot:
         if self.meets != self._met:
             self.shape.filter = self._meeting if self.meets else PASSES
             self._met = self.meets
-        if (radius := ABOVE + self._depth(length)) != self._radius:
+        if (radius := self._size + self._depth(length)) != self._radius:
             self.shape.unsafe_set_radius(radius)
             self._radius = radius
         *_, cos, sin = self.carrier.pose(length, 0.0)
-        self.shape.unsafe_set_offset(over(self.contact.plane.normal, self._point, cos, sin))
+        normal = self.contact.plane.normal
+        self.shape.unsafe_set_offset(above(normal, self._point, cos, sin, self._size))
         stays = self.stands and not strikes
         if (elasticity := 1.0 if stays else 0.0) != self._elasticity:
             self.shape.elasticity = self._elasticity = elasticity

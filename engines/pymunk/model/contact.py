@@ -13,7 +13,6 @@ from pymunk.body import Body
 from pymunk.shape_filter import ShapeFilter
 from pymunk.shapes import Circle
 
-from ....cases.scene import Body as Part
 from ....cases.scene import Contact, Scene, Vector
 from ....cases.scene.plane import Plane
 from ...engine import Start
@@ -23,6 +22,7 @@ from .chipmunk_state import reading
 FLOOR_FRICTION = 1.0  # pymunk multiplies the frictions of two shapes: the circle carries all of µ
 FLOOR_ELASTICITY = 1.0  # likewise the restitution
 ABOVE = 0.1  # m; it must only be more than a step's way: up to 10 m/s with a user's 10 ms
+FALLEN = 0.01  # s²: where g is of another unit of length, as pixels, a second's fall in 10 ms
 Follow = Callable[[float], None]  # before the step that starts at t [s]
 TOUCHING = 1e-9  # m: a start that the assembly has found to 1e-12, and no visible height
 GROUP = 1  # of circles, which touch planes and not each other
@@ -35,11 +35,18 @@ def is_tip(scene: Scene, contact: Contact) -> bool:
     return body.turns and body.radius is None
 
 
-def circle(contact: Contact, part: Part, body: Body) -> Circle:
+def tip_radius(scene: Scene) -> float:
+    """Returns the radius [m] of the circles above points."""
+    return max(ABOVE, FALLEN * math.hypot(*scene.gravity))
+
+
+def circle(scene: Scene, contact: Contact, body: Body) -> Circle:
     """The contact's shape: the disk itself, or the circle above the point."""
+    part = scene.bodies[contact.body]
     if part.radius is None:
-        at = above(contact.plane, part.points[contact.at.point], body.angle)
-        shape = Circle(body, ABOVE, at)
+        normal, radius = contact.plane.normal, tip_radius(scene)
+        point, turned = part.points[contact.at.point], (math.cos(body.angle), math.sin(body.angle))
+        shape = Circle(body, radius, above(normal, point, *turned, radius))
     else:
         shape = Circle(body, part.radius)
     shape.friction = contact.friction
@@ -62,24 +69,20 @@ def only(shape: Circle, plane: ShapeFilter) -> None:
         shape.filter = ShapeFilter(group=GROUP, mask=plane.categories)
 
 
-def above(plane: Plane, point: Vector, angle: float) -> Vector:
-    """The circle's centre in body axes, ABOVE m over the point in the ground's."""
-    return over(plane.normal, point, math.cos(angle), math.sin(angle))
-
-
-def over(normal: Vector, point: Vector, cos: float, sin: float) -> Vector:
+def above(normal: Vector, point: Vector, cos: float, sin: float, radius: float) -> Vector:
     """The circle's centre by the normal in ground axes, and the angle's cosine and sine."""
     nx, ny = normal
-    return (point[0] + (cos * nx + sin * ny) * ABOVE, point[1] + (cos * ny - sin * nx) * ABOVE)
+    return (point[0] + (cos * nx + sin * ny) * radius, point[1] + (cos * ny - sin * nx) * radius)
 
 
 class Tip:
     """A point of a turning body that touches, with its circle, as pymunk was told of it."""
 
-    def __init__(self, contact: Contact, part: Part, shape: Circle) -> None:
+    def __init__(self, scene: Scene, contact: Contact, shape: Circle) -> None:
         self._shape, self._impact, self._told = shape, contact.restitution, contact.restitution
-        self._place = *part.points[contact.at.point], *contact.plane.normal
-        self._level, self._depth = contact.plane.height(0.0, 0.0), shape.radius - ABOVE
+        point = scene.bodies[contact.body].points[contact.at.point]
+        self._place, self._radius = (*point, *contact.plane.normal), tip_radius(scene)
+        self._level, self._depth = contact.plane.height(0.0, 0.0), shape.radius - self._radius
         # what already turns at the start stands on the floor; else it strikes in the first step
         self._touched = contact.ideal == "pivot"
 
@@ -95,7 +98,7 @@ class Tip:
     def follow(self, cos: float, sin: float) -> None:
         """By its body's angle after the step: the circle stands over the point."""
         a, b, nx, ny = self._place
-        self._shape.unsafe_set_offset(over((nx, ny), (a, b), cos, sin))
+        self._shape.unsafe_set_offset(above((nx, ny), (a, b), cos, sin, self._radius))
 
 
 def follower(body: Body, tips: Sequence[Tip], step: float, *, reflects: bool) -> Follow:
@@ -161,10 +164,10 @@ def _gap(scene: Scene, start: Start, contact: Contact) -> float:
     return float(contact.plane.height(*place)) - (part.radius or 0.0)
 
 
-def sink(contact: Contact, part: Part, shape: Circle, depth: float) -> None:
+def sink(scene: Scene, contact: Contact, shape: Circle, depth: float) -> None:
     """Starts the contact `depth` m in its plane; a point's circle grows, a disk is moved."""
-    if part.radius is None:
-        shape.unsafe_set_radius(ABOVE + depth)
+    if scene.bodies[contact.body].radius is None:
+        shape.unsafe_set_radius(tip_radius(scene) + depth)
     elif shape.body:
         nx, ny = contact.plane.normal
         shape.body.position -= (depth * nx, depth * ny)

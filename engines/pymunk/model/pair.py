@@ -15,7 +15,7 @@ from pymunk.vec2d import Vec2d
 from ....cases.scene import Scene, Vector
 from ....cases.scene.pair import Pair
 from ...engine import Start, begun
-from .contact import ABOVE, FLOOR_ELASTICITY, FLOOR_FRICTION, TOUCHING, Follow
+from .contact import FLOOR_ELASTICITY, FLOOR_FRICTION, TOUCHING, Follow, tip_radius
 from .world import World
 
 MOST = 32  # bits of a category: one for each plane and pair
@@ -35,7 +35,9 @@ def add_pairs(world: World, first: int) -> None:
 def _touching(world: World, pair: Pair) -> Circle:
     """It carries all of the friction, and of the restitution."""
     body, radius = world.bodies[pair.body], pair.radius(world.scene.bodies)
-    circle = Circle(body, radius) if radius else Circle(body, ABOVE, above(world, pair, 0.0))
+    circle = Circle(body, radius or tip_radius(world.scene))
+    if not radius:
+        circle.unsafe_set_offset(above(world, pair, 0.0))
     circle.friction, circle.elasticity = pair.friction, pair.restitution
     return circle
 
@@ -63,7 +65,7 @@ def above(world: World, pair: Pair, ahead: float) -> Vector:
     else:
         apart = body.position - other.position + ahead * (body.velocity - other.velocity)
         normal = (apart + point.rotated(turned)).normalized()
-    return point + normal.rotated(-turned) * ABOVE
+    return point + normal.rotated(-turned) * tip_radius(world.scene)
 
 
 def pair_followers(world: World, step: float, *, reflects: bool) -> list[Follow]:
@@ -90,12 +92,12 @@ def _over(world: World, pair: Pair, step: float) -> Follow:
 
 def _reflecting(world: World, pair: Pair) -> Follow:
     circle, gap = world.pairs[pair.name][0], _gap(world, pair)
-    size = pair.radius(world.scene.bodies) or ABOVE  # without what it has grown at the start
+    ungrown = pair.radius(world.scene.bodies) or tip_radius(world.scene)
     now = pair.restitution
 
     def follow(t: float) -> None:
         nonlocal now
-        wanted = 1.0 if gap() < circle.radius - size else pair.restitution
+        wanted = 1.0 if gap() < circle.radius - ungrown else pair.restitution
         if now != wanted:
             circle.elasticity = now = wanted
 

@@ -36,7 +36,7 @@ def placed(
         swell(world, numbers.get("start.seed", 0.0))
     for contact in () if world.plain else closed(scene, start):
         seed = numbers.get("start.seed", 0.0)
-        sink(contact, scene.bodies[contact.body], world.wheels[contact.name], seed)
+        sink(scene, contact, world.wheels[contact.name], seed)
     for pair in closed_pairs(scene, start):
         press(world, pair, numbers.get("start.seed", 0.0))
     if numbers.get("time.midpoint"):
@@ -155,7 +155,7 @@ def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
     tips: dict[str, list[Tip]] = {}
     for contact in scene.touching.values():
         if is_tip(scene, contact) and not world.plain:
-            tip = Tip(contact, scene.bodies[contact.body], world.wheels[contact.name])
+            tip = Tip(scene, contact, world.wheels[contact.name])
             tips.setdefault(contact.body, []).append(tip)
     found = [
         follower(world.bodies[body], those, step, reflects=reflects) for body, those in tips.items()

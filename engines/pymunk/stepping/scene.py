@@ -81,8 +81,8 @@ def _contacts(world: World) -> None:
         world.planes[plane.name] = segment
         world.space.add(segment)
     for contact in world.scene.touching.values():
-        part, body = world.scene.bodies[contact.body], world.bodies[contact.body]
-        world.wheels[contact.name] = wheel = circle(contact, part, body)
+        wheel = circle(world.scene, contact, world.bodies[contact.body])
+        world.wheels[contact.name] = wheel
         only(wheel, known[contact.plane])
         world.space.add(wheel)
     add_pairs(world, len(known))

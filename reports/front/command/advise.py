@@ -101,7 +101,7 @@ def advise(
       textmech advise --all                             the committed reports/advice.csv
     """
     from ...runs.cache import store
-    from ...runs.models import Chosen, choose_models
+    from ...runs.chosen_models import Chosen, choose_models
     from ...runs.request import requested
     from ...runs.selection import choose_cases
     from ...search.advice.advice_rows import Requirement, rows

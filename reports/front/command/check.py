@@ -110,7 +110,7 @@ def _units(
 ) -> "Iterator[Checked | _Task | _Model]":
     """Yields what there is to do for a file, or its mistakes; for a folder each of its models."""
     from ...compare.trial.work import too_long
-    from ...runs.models import choose_models
+    from ...runs.chosen_models import choose_models
     from ...runs.selection import choose_cases
 
     models = choose_models([file], long=long)

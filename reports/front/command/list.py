@@ -23,7 +23,7 @@ WIDTH = 80
 @click.argument("words", nargs=-1, metavar="[WORD]...")
 @as_json
 def list_(words: tuple[str, ...], wants_json: bool) -> None:
-    """The shipped cases, with titles and sources: the textbook's, then public questions.
+    """The shipped cases, with titles and sources: the textbook's, public questions, models.
 
     With WORDS those that have all of them, as in `textmech list wheel`: in name, title or source,
     and then those whose scene or quantities have them, in our words or in what others call them
@@ -31,10 +31,10 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
 
     Below a file's name are its variants: `sliding_block .below` is run as sliding_block.below.
     """
-    from ....cases.find import of_the_book, questions, shipped
+    from ....cases.find import models, of_the_book, questions, shipped
     from ....cases.titled import titled
 
-    every = [case for file in shipped().values() for case in titled(file)]
+    every = [case for file in (shipped() | models()).values() for case in titled(file)]
     named = [case for case in every if _has(f"{case.name} {case.title} {case.origin}", words)]
     beside = [case for case in every if case not in named and _has(_held(case.file), words)]
     cases = [*named, *beside]
@@ -45,7 +45,8 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
 
         document.write(document.of_cases(cases))
         return
-    for title, files in (("Textbook mechanics", of_the_book()), ("What people ask", questions())):
+    groups = {"Textbook mechanics": of_the_book(), "What people ask": questions()}
+    for title, files in (groups | {"Models, as yours may be": models()}).items():
         group = [case for case in named if case.name.partition(".")[0] in files]
         if group:
             say(f"{title}\n")

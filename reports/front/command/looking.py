@@ -21,7 +21,7 @@ def named(
     A file with mistakes is left out: `mistakes` of the request tells them. Raises CaseError where
     nothing is left.
     """
-    from ...runs.models import choose_models
+    from ...runs.chosen_models import choose_models
     from ...runs.request import requested
     from ...runs.selection import sound_cases
 

@@ -57,7 +57,7 @@ def versions(
     Exit codes: 0 done, 2 a mistake: no engine, no such release, no network
     """
     from ....engines.own_model.opened import opened
-    from ...runs.models import choose_models
+    from ...runs.chosen_models import choose_models
     from ...runs.selection import choose_cases, choose_engines
     from ...tables import write
     from ...tables.ownership import unasked

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ....cases.find import questions
+from ....cases.find import models, questions
 from ....cases.mistake import Mistake
 from .console import say
 from .summary import Cures, approximations, summary
@@ -60,12 +60,12 @@ def of_causes(causes: "Sequence[Cause]", wrong: Sequence[Mistake], *, exit_code:
 
 def of_cases(cases: "Sequence[Titled]") -> Document:
     """Returns the document of `textmech list`."""
-    asked = questions()
+    groups = dict.fromkeys(questions(), "questions") | dict.fromkeys(models(), "models")
     return {
         "cases": [
             {
                 "name": case.name,
-                "group": "questions" if case.name.partition(".")[0] in asked else "textbook",
+                "group": groups.get(case.name.partition(".")[0], "textbook"),
                 "title": case.title,
                 "source": str(case.origin),
                 "thread": case.origin.thread,

@@ -13,7 +13,7 @@ from ....engines.mujoco.callbacks.signal import listening
 from ....engines.own_model.limit import stepped_states
 from ....engines.own_model.opened import opened
 from ...compare.own_steps import times_of
-from ...runs.models import choose_models
+from ...runs.chosen_models import choose_models
 
 
 def stepped(case: ModelCase) -> dict[str, Any]:

@@ -139,8 +139,8 @@ def test_what_is_not_read_is_said_and_not_compared() -> None:
     assert parts[MASS].holds
     assert parts[MASS].states == STATES
     text = "\n".join(lines(parts.values()))
-    assert "not compared: option: a fluid (density, viscosity)" in text
-    assert "not compared: actuator biceps: a state of its own" in text
+    assert "not compared: option (MJCF:1): a fluid (density, viscosity)" in text
+    assert "not compared: actuator biceps (MJCF:7): a state of its own" in text
 
 
 def test_actuators_that_are_off_are_none() -> None:

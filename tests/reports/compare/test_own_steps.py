@@ -13,9 +13,10 @@ from textmech.cases.fields.number import Amount
 from textmech.cases.model_case import JOINTS, TOLERANCE, ModelCase, of_model
 from textmech.engines.own_model import equations as ours
 from textmech.engines.own_model import limit as limits
-from textmech.engines.own_model.limit import NoLimit, limit, with_step
+from textmech.engines.own_model.limit import NoLimit, limit
 from textmech.engines.own_model.model import OwnModel, apart, compiled_text
 from textmech.engines.own_model.opened import opened
+from textmech.engines.own_model.step_law import with_step
 from textmech.reference.formalisms import tree_equations
 from textmech.reports.compare import own_steps
 from textmech.reports.compare.own_steps import OWN, Stepped, Steps, steps
@@ -181,7 +182,7 @@ LATE = '<position joint="elbow" kp="3" delay="0.02" nsample="4"/>'
 def test_what_hangs_on_the_step_has_no_limit(words: str, why: str) -> None:
     text = ACROBOT.replace('<position joint="elbow" kp="3"/>', words)
     own = compiled_text(text)
-    assert with_step(own.model)
+    assert with_step(own)
     with pytest.raises(NoLimit, match=why):
         stepped(text)
 

@@ -22,7 +22,7 @@ from given.command.lines import row
 from given.otherwise import otherwise
 
 from textmech.cases.case import Case
-from textmech.cases.find import questions
+from textmech.cases.find import models, questions
 from textmech.cases.mistake import Mistake
 from textmech.cases.scene import unnamed
 from textmech.cases.scene.unnamed import through
@@ -118,7 +118,7 @@ def test_help_names_every_setting_that_engines_offer(command: str) -> None:
         (["run", "--settings", "tunned"], "did you mean 'tuned'?"),
         (["run", "--jobs", "0"], "--jobs"),
         (["run", "nowhere.yaml"], "no such file"),
-        (["run", "."], "directory"),
+        (["run", "reference"], "directory"),
         (["check", "nowhere.yaml"], "no such file"),
         (["show", "rolling_wheel", "--engine", "mujoco"], "rolling_wheel.pushed"),
         (["show", "four_bar"], "--engine"),
@@ -215,10 +215,12 @@ def test_list_names_every_case_with_its_source() -> None:
     done = textmech("list")
     assert done.returncode == 0
     book, _, asked = done.stdout.partition("What people ask")
+    asked, _, own = asked.partition("Models")
     assert "four_bar\n" in book
     assert "figure 2.3" in book
     assert "creeping_block\n" in asked
     assert "google-deepmind/mujoco#3328" in asked
+    assert "hopper\n      A hopper that lands" in own
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
@@ -405,7 +407,7 @@ def document(*words: object) -> dict[str, Any]:
 def test_a_run_tells_all_its_rows_and_writes_where_it_is_told(new: Path, tmp_path: Path) -> None:
     places = ("--out", tmp_path / "o", "--keep", tmp_path / "k")
     found = document("run", new, "--engine", "mujoco.tuned", *places)
-    tables = "summary tolerance convergence steps events reference causes"
+    tables = "summary tolerance convergence steps events reference causes models"
     assert list(found) == f"{tables} warnings mistakes written exit_code".split()
     assert [row["quantity"] for row in found["tolerance"]] == ["audit", "cart.x", "rod.angle"]
     line = {"case": "cart", "setting": "mujoco.tuned", "worst": "agrees", "agrees": "tuned 8 ms"}
@@ -460,6 +462,8 @@ def test_list_tells_every_case_and_its_group() -> None:
     asked = {name for name, case in cases.items() if case["group"] == "questions"}
     assert {name.partition(".")[0] for name in asked} == set(questions())  # with its variants
     assert all("#" in cases[name]["thread"] for name in asked)
+    own = {name for name, case in cases.items() if case["group"] == "models"}
+    assert own == set(models())
 
 
 def test_what_json_has_not_is_null(capsys: pytest.CaptureFixture[str]) -> None:

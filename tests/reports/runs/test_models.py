@@ -14,7 +14,7 @@ from given.otherwise import otherwise
 from textmech.cases.model_case import of_model
 from textmech.reports.compare import own_rows
 from textmech.reports.front.command import own_advice
-from textmech.reports.runs.models import choose_models
+from textmech.reports.runs.chosen_models import choose_models
 from textmech.reports.runs.request import requested
 from textmech.reports.runs.suite import measure
 from textmech.reports.search.advice.own_model import OwnAdvice, Recipe, Tried

@@ -11,6 +11,7 @@ import pytest
 from given.command import textmech
 
 from textmech.cases.mistake import CaseError
+from textmech.engines.pymunk.model import contact
 from textmech.reports import advise, load, run, solve
 from textmech.reports.runs.selection import choose_cases, names_function
 
@@ -140,3 +141,24 @@ def test_python_takes_a_space_itself(game: Path) -> None:
     assert tuple(body.position) == (450, 100)  # nothing is changed of it
     with pytest.raises(CaseError, match="another case beside it has the name 'space'"):
         load([space, space])
+
+
+@pytest.mark.slow
+@pytest.mark.mutant("a corner's circle of a tenth of a pixel")
+def test_a_box_of_pixels_lands(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It lands at 424 a second, 4.2 in a step of pymunk's; its circles have to be larger."""
+    space = pymunk.Space()
+    space.gravity = (0.0, -900.0)
+    space.add(pymunk.Segment(space.static_body, (-500.0, 0.0), (500.0, 0.0), 0.0))
+    body = pymunk.Body(2.0, pymunk.moment_for_box(2.0, (40.0, 40.0)))
+    body.position = (0.0, 120.0)
+    space.add(body, pymunk.Poly.create_box(body, (40.0, 40.0)))
+
+    def off() -> float:
+        rows = run(space, engines=["pymunk.shipped"]).tolerance
+        return float(rows[rows.quantity == "body0.y"].error.max())
+
+    assert off() < 4.3
+    monkeypatch.setattr(contact, "FALLEN", 0.0)
+    monkeypatch.setenv("TEXTMECH_CACHE", os.devnull)  # where the answer of above is not
+    assert off() > 50.0
