@@ -49,8 +49,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     (row,) = write.read(tmp_path / "tolerance.csv", Comparison)
     assert (row.error, row.rms, row.because) == (1.23e-9, None, ROW.because)
     assert sorted(p.name for p in tmp_path.iterdir()) == [
-        "causes.csv", "convergence.csv", "coverage.csv", "events.csv", "reference.csv", "runs.csv",
-        "steps.csv", "tolerance.csv",
+        "causes.csv", "convergence.csv", "coverage.csv", "events.csv", "models.csv",
+        "reference.csv", "runs.csv", "steps.csv", "tolerance.csv",
     ]  # fmt: skip
 
 
