@@ -165,3 +165,5 @@ class Tree:
 MASS, BIAS, PASSIVE, DRIVEN = "mass matrix", "bias", "passive forces", "actuator forces"
 PARTS = (MASS, BIAS, PASSIVE, DRIVEN)
 """Of M v̇ + bias = passive + actuator forces + those of constraints."""
+CONSTRAINTS, MOTION = "constraints", "motion"
+"""What is compared beside them: forces where constraints act, and the motion where none does."""

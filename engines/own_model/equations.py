@@ -2,7 +2,6 @@
 
 import copy
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 from scipy.integrate import DOP853, Radau
 
 from ...cases.trajectory import Array
+from .constraints import EXACT_SOLVER, acting
 from .control import Controls
 from .model import OwnModel
 
@@ -23,16 +23,6 @@ MOST, LEAST = 30_000, 400  # accelerations of an answer; a part may cost a quart
 CRAWLS = 15  # accelerations of a step of DOP853, which takes 12: more, and it rejects at switches
 STEPS = "small steps"
 SLIGHT = 1e-6  # of a step: what begins with a step in the clock's rounding begins with it
-
-
-EXACT_SOLVER: Mapping[str, float] = {
-    "solver": int(mujoco.mjtSolver.mjSOL_NEWTON),
-    "iterations": 200,
-    "tolerance": 1e-16,  # what 1e-8 leaves is noise that stalls integrators; 0 never stops
-    "ls_iterations": 50,
-    "ls_tolerance": 0.01,
-}
-"""Options with which constraints are solved to the last digit; a model may have few iterations."""
 
 
 class NoLimit(Exception):
@@ -83,6 +73,7 @@ class Equations:
     def _begin(self) -> None:
         self.data = begun_as(self.model, self.start)
         self.left, self.steps, self.first, self.stiff = MOST, 0, FIRST, False
+        self.acts: tuple[float, str] = (math.inf, "")
         self.over: dict[str, float] = dict.fromkeys(("DOP853", "Radau", STEPS), 0.0)
 
     @property
@@ -105,9 +96,15 @@ class Equations:
             d.ctrl[:] = self.controls.at(min(t, self.before))
         self._set(y)
         mujoco.mj_forward(m, d)
+        self._note(t)
         low, high = self.act_range  # from whose ends no rate leads outwards
         least, most = np.where(d.act > low, -np.inf, 0.0), np.where(d.act < high, np.inf, 0.0)
         return np.concatenate([self._q_dot(y), d.qacc, np.clip(d.act_dot, least, most)])
+
+    def _note(self, t: float) -> None:
+        """Notes what constraint acts first, of those that act at t [s]."""
+        if self.data.nefc and t < self.acts[0]:
+            self.acts = float(t), acting(self.model, self.data)
 
     def followed(self, times: Array, to: Fineness) -> Array:
         """Returns y (N, k) at the times. Raises NoLimit where even small steps diverge.
@@ -171,6 +168,7 @@ class Equations:
                 d.ctrl[:] = self.controls.at(a + (k + SLIGHT) * h)
             mujoco.mj_forward(m, d)
             mujoco.mj_implicit(fine, d)
+            self._note(a + k * h)
         after = np.concatenate([d.qpos, d.qvel, d.act])
         if not np.all(np.isfinite(after)):
             raise NoLimit(f"no integrator comes through, and steps of {h:.2g} s diverge")

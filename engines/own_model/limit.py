@@ -35,7 +35,8 @@ class Limit:
     """The motion for h → 0: y = (qpos, qvel, act) (N, k) at the times (N,) [s], q (N, m) of them.
 
     errors (N,): by how much two answers differ up to each time, the largest of all coordinates;
-    method: what integrates; fineness: of the finer answer.
+    method: what integrates; fineness: of the finer answer; acts: when [s] a constraint acts first
+    along it, and which.
     """
 
     times: Array
@@ -44,6 +45,7 @@ class Limit:
     errors: Array
     method: str
     fineness: Fineness
+    acts: tuple[float, str] = (math.inf, "")
 
     @property
     def error(self) -> float:
@@ -82,7 +84,8 @@ def limit(
         coarse = fine if finer == 2 else equations.followed(times, _loose(parts // 2))
         fineness = _tight(parts)
         fine = equations.followed(times, fineness)
-    return Limit(times, fine, fine[:, : own.model.nq], errors, equations.method, fineness)
+    q, method = fine[:, : own.model.nq], equations.method
+    return Limit(times, fine, q, errors, method, fineness, equations.acts)
 
 
 def repeated(own: OwnModel, exact: Limit, start: mujoco.MjData) -> Array:

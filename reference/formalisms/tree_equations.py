@@ -27,6 +27,7 @@ class Axes:
     t: Array  # (n, 3): how fast p is shifted
 
     @property
+    @equation
     def s(self) -> Array:
         """(2.7) ṙ + ω × x, of the origin."""
         return self.t - cross(self.w, self.p)

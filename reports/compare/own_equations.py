@@ -3,7 +3,7 @@
 Both see the same numbers, of the compiled model, and share no line of what they make of them.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, islice
 
@@ -11,10 +11,12 @@ import numpy as np
 
 from ...cases.mistake import plain
 from ...cases.trajectory import Array
-from ...cases.tree import BIAS, DRIVEN, MASS, PARTS, PASSIVE, WIDTH, Line, Tree
+from ...cases.tree import BIAS, CONSTRAINTS, DRIVEN, MASS, PARTS, PASSIVE, WIDTH, Line, Tree
+from ...engines.own_model.constraints import Constraints
 from ...engines.own_model.model import OwnModel, State
 from ...reference.formalisms import tree_equations as textbook
 from ...reference.formalisms.tree_equations import Term
+from ...reference.laws import constraints as law
 
 STATES = 100  # half of them of its motion, half drawn
 DURATION = 1.0  # s of its motion
@@ -26,7 +28,8 @@ class Part:
     """A part of the equations: how far it is off, in which joint, over how many states.
 
     off: of the largest that the terms could be, or None where nothing is compared. unread: what the
-    model has that is not compared, by element.
+    model has that is not compared, by element. against: of what it is off, with a unit; bound: by
+    how much it may be. span: over how long [s], of a motion.
     """
 
     name: str
@@ -35,11 +38,14 @@ class Part:
     states: int = 0
     unread: Sequence[str] = field(default_factory=tuple)
     because: str = ""
+    against: str = "from the textbook's"
+    bound: float = ROUNDING
+    span: float = 0.0
 
     @property
     def holds(self) -> bool:
-        """Whether it is off by rounding at most, as far as it is compared."""
-        return self.off is None or self.off <= ROUNDING
+        """Whether it is off by its bound at most, as far as it is compared."""
+        return self.off is None or self.off <= self.bound
 
 
 def equations(model: OwnModel, count: int = STATES) -> list[Part]:
@@ -55,10 +61,28 @@ def equations(model: OwnModel, count: int = STATES) -> list[Part]:
         for part in parts:
             if not part.unread and (part.name != DRIVEN or tree.motors):
                 _compare(part, tree, ours[part.name], theirs[part.name])
+    parts.append(constraints(model, moved))
     for part in parts:
         if part.name == MASS and not part.holds and (coupling := _branching(tree)):
             part.because = f"{' and '.join(coupling)} couples branches by its armature: {NO_ENTRY}"
     return parts
+
+
+def constraints(model: OwnModel, states: Iterable[State]) -> Part:
+    """Returns how far the forces of constraints are off: in M a + bias = τ + Jᵀ f, or in their law.
+
+    Which f is in its cone and of the model's own law of J a − a_ref, is in `laws/constraints.py`.
+    """
+    asked = Constraints(model)
+    part = Part(CONSTRAINTS, None, unread=asked.unread, against="from the optimum of their law")
+    for state in states if not part.unread else ():
+        acting = asked.at(state)
+        if acting is not None:
+            part.states += 1
+            _worsen(part, model.tree.named, *law.balance(acting))
+            each, off, sizes = zip(*law.differences(acting), strict=True)
+            _worsen(part, [x.name for x in each].__getitem__, np.array(off), np.array(sizes))
+    return part
 
 
 NO_ENTRY = "MuJoCo's matrix has entries only of joints that hang one on the other"
@@ -80,15 +104,20 @@ def _branching(tree: Tree) -> list[str]:
 
 def _compare(part: Part, tree: Tree, ours: tuple[Array, Array], theirs: Array) -> None:
     values, sizes = ours
-    difference = np.abs(values - theirs)
+    part.states += 1
+    _worsen(part, tree.named, values - theirs, sizes)
+
+
+def _worsen(part: Part, name: Callable[[int], str], difference: Array, sizes: Array) -> None:
+    """Notes the largest of differences, each of its size, and the name of what has it."""
+    difference = np.abs(difference)
     with np.errstate(divide="ignore", invalid="ignore"):
         off = np.where(difference == 0.0, 0.0, difference / sizes)
     off = np.where(np.isnan(off), np.inf, off)
     worst = float(off.max())
-    part.states += 1
     if part.off is None or worst > part.off:
         places = np.unravel_index(int(np.argmax(off)), off.shape)
-        names = dict.fromkeys(tree.named(int(k)) for k in places)
+        names = dict.fromkeys(name(int(k)) for k in places)
         part.off, part.joint = worst, " and ".join(names)
 
 
@@ -122,9 +151,9 @@ def lines(parts: Iterable[Part]) -> list[str]:
 
 def _sentences(part: Part) -> Iterator[str]:
     if part.off is not None:
-        off = f"{part.off:.0e} from the textbook's"
-        whole = f"{off}, at {part.states} states"
-        yield whole if part.holds else f"FAILS: {off} in {part.joint}, at {part.states} states"
+        off = f"{part.off:.0e} {part.against}"
+        off = off if part.holds else f"FAILS: {off} in {part.joint}"
+        yield f"{off}, over {part.span:.3g} s" if part.span else f"{off}, at {part.states} states"
     if part.because:
         yield part.because
     yield from (f"not compared: {what}" for what in part.unread)

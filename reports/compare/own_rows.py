@@ -24,6 +24,7 @@ from ..tables.row import (
 )
 from .judge import metric
 from .own_equations import ROUNDING, Part, equations
+from .own_motion import motion
 from .own_seen import Seen, seen
 from .own_steps import KNOWN, OTHERS, OWN, Error, Setting, Stepped, Steps, integrator_of, steps
 
@@ -70,7 +71,6 @@ def modelled(
     ready = opened(case)
     own = ready.own
     parts = equations(own)
-    certificates = [*_certificates(case, parts)]
     if not own.model.nv:
         return Modelled(case, str(own), "", None, parts, "nothing moves")
     try:
@@ -79,7 +79,9 @@ def modelled(
         because = f"no limit: {error}"
         rows = [_refused(case, q, bar, because) for q, bar in ready.bars.items()]
         return Modelled(case, str(own), own.started, None, parts, because, rows, (), (),
-                        certificates)  # fmt: skip
+                        [*_certificates(case, parts)])  # fmt: skip
+    parts.append(motion(own, result.limit))
+    certificates = [*_certificates(case, parts)]
     if result.known <= KNOWN * min(ready.bars.values()):
         certificates.append(_known(case, result))
     shown = seen(ready, result.limit, result.until)
@@ -211,7 +213,7 @@ def _certificates(case: ModelCase, parts: Sequence[Part]) -> Iterator[Certificat
         if part.off is not None:
             difference = metric.round_to_floor(part.off, ROUNDING)
             verdict = "holds" if part.holds else FAILS
-            yield Certificate(case.name, case.title, "compiled", part.name, difference, ROUNDING,
+            yield Certificate(case.name, case.title, "compiled", part.name, difference, part.bound,
                               None, "", verdict)  # fmt: skip
 
 

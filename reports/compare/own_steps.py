@@ -178,10 +178,7 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
     own, bars = opened.own, opened.bars
     within = KNOWN * min(bars.values())
     exact = limit(own, times, within=within)
-    start = own.start()
-    by = np.random.default_rng(0).choice((-DISTURBED, DISTURBED), own.model.nv)
-    start.qpos[:] = moved(own.model, start.qpos, by)
-    a, b = (Motion(own, exact.times, y) for y in (exact.y, repeated(own, exact, start)))
+    a, b = (Motion(own, exact.times, y) for y in (exact.y, disturbed(own, exact)))
     off = differences([*bars], a, b)
     ratios = [sizes(values) / bars[quantity] for quantity, values in off.items()]
     far = np.flatnonzero(np.max(ratios, axis=0) > 1.0) if ratios else []
@@ -192,6 +189,14 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
         return exact, known, f"later the limit is known to {exact.error:.0e} only"
     late = f"later a disturbance of {DISTURBED:g} exceeds a tolerance" if horizon < end else ""
     return exact, horizon, late
+
+
+def disturbed(own: OwnModel, exact: Limit) -> Array:
+    """Returns y (N, k) as a limit has it, of a start of which each joint is off by DISTURBED."""
+    start = own.start()
+    by = np.random.default_rng(0).choice((-DISTURBED, DISTURBED), own.model.nv)
+    start.qpos[:] = moved(own.model, start.qpos, by)
+    return repeated(own, exact, start)
 
 
 def in_setting(opened: Opened, setting: Setting, exact: Limit, until: float) -> Stepped:

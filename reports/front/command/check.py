@@ -53,7 +53,8 @@ def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long
     """All mistakes of case files, and checks of their references; no engine is run.
 
     Of an MJCF or URDF file what MuJoCo compiles: its mass matrix, its bias, its passive and its
-    actuator forces are compared with the textbook's at a hundred states.
+    actuator forces are compared with the textbook's at a hundred states, and the forces of
+    contacts, limits, dry friction and equalities, where they act, with the optimum of their law.
 
     \b
       textmech check my_case.yaml

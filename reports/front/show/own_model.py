@@ -8,7 +8,7 @@ from textwrap import wrap
 from ....cases.fields.signal import Signal
 from ....cases.mistake import CaseError, plain
 from ....cases.model_case import JOINTS, Law, ModelCase
-from ....cases.tree import DRIVEN, PARTS
+from ....cases.tree import CONSTRAINTS, DRIVEN, PARTS
 from ....engines.own_model import description
 from ....engines.own_model.limit import PAIRS, apart_by_pairs
 from ....engines.own_model.model import VERSION, OwnModel
@@ -101,7 +101,10 @@ def _claims(own: OwnModel) -> Iterator[str]:
         words = [f"not compared: {what}" for what in own.tree.unread.get(part, ())] or [compared]
         yield from (f"    {part:15}  {each}" for each in words)
     if constraints:
-        yield f"    {constraints}: in none of these"
+        yield f"    {CONSTRAINTS:15}  {constraints}: their forces compared, where they act"
+    yield "  motion, until a constraint acts, against our own reference by `textmech run`"
+    unread = f"not compared: {_and([*own.tree.unread])} are not read as a whole"
+    yield f"    {unread if own.tree.unread else 'compared'}"
     yield "  step, against its own limit for h → 0 by `textmech run`"
     reasons = with_step(own)
     yield from (f"    no limit: {reason}" for reason in reasons)

@@ -11,7 +11,7 @@ from given.machines.random_models import public_models, random_model
 from given.otherwise import otherwise
 
 from textmech.cases.mistake import CaseError
-from textmech.cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Link, Tree
+from textmech.cases.tree import BIAS, CONSTRAINTS, DRIVEN, MASS, PASSIVE, Link, Tree
 from textmech.engines.own_model import model, numbers
 from textmech.engines.own_model.model import compiled, compiled_text
 from textmech.reference.formalisms import tree_equations
@@ -34,9 +34,9 @@ def held(text: str, tree: Callable[[Tree], Tree] = lambda tree: tree) -> dict[st
 def test_any_models_equations_are_the_textbooks(seed: int) -> None:
     parts = equations(compiled_text(random_model(seed)), STATES)
     assert {part.name: part.holds for part in parts} == dict.fromkeys(
-        (MASS, BIAS, PASSIVE, DRIVEN), True
+        (MASS, BIAS, PASSIVE, DRIVEN, CONSTRAINTS), True
     )
-    assert all(part.states == STATES for part in parts if part.name != DRIVEN)
+    assert all(part.states == STATES for part in parts if part.name in (MASS, BIAS, PASSIVE))
     assert not any(part.unread for part in parts)
 
 
