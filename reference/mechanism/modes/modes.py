@@ -185,7 +185,11 @@ class Modes(Numbered, Mapping[str, Multibody]):
 
         Where all forces have ended what is left of them is rounding, and no size of anything.
         """
-        return ROUNDING * max(self.base.terms(t, q, v)[0], self._usual)
+        return ROUNDING * self.usual(t, q, v)
+
+    def usual(self, t: float, q: Array, v: Array) -> float:
+        """The size of accelerations [m/s²]: of what one force gives alone, here or at the start."""
+        return max(self.base.terms(t, q, v)[0], self._usual)
 
     @cached_property
     def _usual(self) -> float:
