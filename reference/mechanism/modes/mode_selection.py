@@ -89,9 +89,6 @@ def settled(
 ) -> After:
     """The mode among the choices in which all forces and motions agree, and its state.
 
-    What the likeliest of them holds altogether, and with no forces within the laws, none of the
-    others holds: each has a part of its rows, and of its forces those at a bound.
-
     Raises Undetermined where there is none, or where a contact could as well open as stay, or rub
     one way as the other.
     """
@@ -99,22 +96,15 @@ def settled(
     rests = _rests(modes, choices, t, *likeliest)
     found: list[After] = [likeliest] if rests else []
     singular: SingularPose | None = None
-    hopeless, known = False, {*modes}
     for states in possible_ways(modes, likeliest, choices, t, rests=rests):
         after = _projected(modes, states, t, q, v)
         try:
-            if (hopeless and _held(modes, after, t)) or (
-                found and modes.loose(found[0][0]) and modes.loose(after[0])
-            ):
+            if found and modes.loose(found[0][0]) and modes.loose(after[0]):
                 continue
             if _agrees(modes, choices, t, *after):
                 found.append(after)
-            elif all(state == choice[0] for state, choice in zip(states, choices, strict=True)):
-                hopeless = modes.loose(after[0]) and _held(modes, after, t)
         except SingularPose as error:
             singular = singular or error  # one that agrees needs nothing of it
-        finally:
-            modes.forget(states, {*known, *(name for name, _, _ in found)})
     if not found and singular:
         raise Undetermined(_blamed(modes, choices), str(singular), t) from singular
     if not found:
@@ -146,11 +136,6 @@ def _rests(
         return bool(still) and _agrees(modes, choices, t, mode, q, v)
     except SingularPose:
         return False
-
-
-def _held(modes: Modes, after: After, t: float) -> bool:
-    mode, q, v = after
-    return modes.locked(mode, t, q, v)
 
 
 def _agrees(
