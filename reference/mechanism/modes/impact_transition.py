@@ -15,12 +15,11 @@ from ..constraints.constraint import Constraint, row
 from .blow import ROUNDING, Condition, Meeting
 from .element import Element, State
 from .impact import NoImpact, Several, impact
-from .mode_selection import After, Options, Undetermined, closed, settled, staying
+from .mode_selection import STILL, After, Options, Undetermined, closed, settled, staying
 from .modes import Modes, rate
 from .one_instant import undivided
 
 ANY = 1e9  # coefficient that lets nothing slip; an infinite one times a zero impulse would be nan
-STILL = 1e-12  # of the largest velocity: what a projection or an assembly leaves of a zero rate
 
 
 def landed(

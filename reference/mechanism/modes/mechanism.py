@@ -16,9 +16,10 @@ from ..constraints.constraint import Constraint, tracked
 from ..constraints.leeway import Leeway
 from ..forces.action import blurred
 from .element import REST, Element, State, sign
-from .impact_transition import STILL, landed
+from .impact_transition import landed
 from .mode import Multibody
 from .mode_selection import (
+    STILL,
     After,
     Options,
     Undetermined,

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...integrators.budget import tries
 from ...system import Array
 from ..constraints.constraint import row
 from ..constraints.leeway import FITS
@@ -12,14 +11,13 @@ from .element import Element, State, sign, sliding
 from .loose import DEPENDENT, rank
 from .mode import SingularPose
 from .modes import Modes
-from .shared_friction import undecided, ways
+from .possible_ways import Options, possible_ways
 
+STILL = 1e-12  # of the largest velocity: what a projection or an assembly leaves of a zero rate
 YIELDS = 1e-8  # of the forces: where events are located a margin is 0 to some 1e-10 of them
 
 After = tuple[str, Array, Array]
 """A mode's name, q and v with which it begins."""
-Options = tuple[State, ...]
-"""States that one element may take, the likeliest first."""
 
 
 class Undetermined(Exception):
@@ -91,31 +89,22 @@ def settled(
 ) -> After:
     """The mode among the choices in which all forces and motions agree, and its state.
 
-    What the likeliest of them holds altogether, and with no forces within the laws, none of the
-    others holds: each has a part of its rows, and of its forces those at a bound.
-
     Raises Undetermined where there is none, or where a contact could as well open as stay, or rub
     one way as the other.
     """
-    found: list[After] = []
+    likeliest = _projected(modes, tuple(choice[0] for choice in choices), t, q, v)
+    rests = _rests(modes, choices, t, *likeliest)
+    found: list[After] = [likeliest] if rests else []
     singular: SingularPose | None = None
-    hopeless, known = False, {*modes}
-    free = undecided(modes.elements, choices)
-    for states in tries(ways(modes.elements, choices), free):
+    for states in possible_ways(modes, likeliest, choices, t, rests=rests):
         after = _projected(modes, states, t, q, v)
         try:
-            if (hopeless and _held(modes, after, t)) or (
-                found and modes.loose(found[0][0]) and modes.loose(after[0])
-            ):
+            if found and modes.loose(found[0][0]) and modes.loose(after[0]):
                 continue
             if _agrees(modes, choices, t, *after):
                 found.append(after)
-            elif all(state == choice[0] for state, choice in zip(states, choices, strict=True)):
-                hopeless = modes.loose(after[0]) and _held(modes, after, t)
         except SingularPose as error:
             singular = singular or error  # one that agrees needs nothing of it
-        finally:
-            modes.forget(states, {*known, *(name for name, _, _ in found)})
     if not found and singular:
         raise Undetermined(_blamed(modes, choices), str(singular), t) from singular
     if not found:
@@ -134,9 +123,19 @@ def settled(
     return first
 
 
-def _held(modes: Modes, after: After, t: float) -> bool:
-    mode, q, v = after
-    return modes.locked(mode, t, q, v)
+def _rests(
+    modes: Modes, choices: Sequence[Options], t: float, mode: str, q: Array, v: Array
+) -> bool:
+    """Whether nothing moves in a mode, nor is about to, and its forces are within the laws."""
+    _, g, gamma = modes[mode].rows(t, q, v)
+    if np.max(np.abs(np.append(v, g))) > modes.still(t, q, v, part=STILL):
+        return False
+    try:
+        changes = np.append(modes[mode].accelerations(t, q, v), gamma)
+        still = np.max(np.abs(changes)) <= modes.small(t, q, v)
+        return bool(still) and _agrees(modes, choices, t, mode, q, v)
+    except SingularPose:
+        return False
 
 
 def _agrees(

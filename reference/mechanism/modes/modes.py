@@ -1,7 +1,7 @@
 """The modes of a scene: which rows and friction laws hold in each, and the forces that follow."""
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 import numpy as np
@@ -21,9 +21,6 @@ from .stopping import stopping
 from .unilateral import unilateral
 
 ROUNDING = 1e-10  # of the accelerations that the forces give alone
-KEPT = (
-    200  # modes: of more those that are not entered are built again when they are met, 50 kB each
-)
 
 
 class Modes(Numbered, Mapping[str, Multibody]):
@@ -70,11 +67,6 @@ class Modes(Numbered, Mapping[str, Multibody]):
     def loose(self, mode: str) -> bool:
         """Whether its rows hold more than there is to hold."""
         return mode in self._ranks
-
-    def locked(self, name: str, t: float, q: Array, v: Array) -> bool:
-        """Whether nothing can move in a mode, whose rows do not contradict each other."""
-        rank = self._ranks.get(name) or independent(self[name], t, q, v)
-        return rank == len(self.M) and not self.contradicts(name, t, q, v)
 
     def contradicts(self, name: str, t: float, q: Array, v: Array) -> bool:
         """Whether rows that depend on each other ask for different accelerations.
@@ -154,14 +146,6 @@ class Modes(Numbered, Mapping[str, Multibody]):
                 base=self.base,
         )  # fmt: skip
 
-    def forget(self, states: tuple[State, ...], but: Collection[str]) -> None:
-        """Drops what is built of modes with these states, where there are very many."""
-        if len(self._built) > KEPT:
-            self._whole.pop(states, None)
-            for name in list(self._built)[-2:]:  # its mode, and the one of fewer rows
-                if self.states[name] == states and name not in but:
-                    del self._built[name]
-
     def __iter__(self) -> Iterator[str]:
         return iter(self._built)
 
@@ -185,7 +169,11 @@ class Modes(Numbered, Mapping[str, Multibody]):
 
         Where all forces have ended what is left of them is rounding, and no size of anything.
         """
-        return ROUNDING * max(self.base.terms(t, q, v)[0], self._usual)
+        return ROUNDING * self.usual(t, q, v)
+
+    def usual(self, t: float, q: Array, v: Array) -> float:
+        """The size of accelerations [m/s²]: of what one force gives alone, here or at the start."""
+        return max(self.base.terms(t, q, v)[0], self._usual)
 
     @cached_property
     def _usual(self) -> float:
