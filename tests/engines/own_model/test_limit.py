@@ -148,16 +148,23 @@ TWO_KINDS = """\
 SHORT = np.linspace(0.0, 0.2, 21)
 
 
-@pytest.mark.mutant("{what}")
+SMALL_STEPS = {
+    "a law of the small step": ("mujoco.mj_forward(m, d)\n            mujoco.mj_implicit",
+                                "mujoco.mj_forward(fine, d)\n            mujoco.mj_implicit"),
+    "steps of another length": ("h = fine.opt.timestep =", "h = fine.opt.timestep = 1.01 *"),
+}  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("what", "was", "now"),
     [
         ("nothing", "self.steps += count", "self.steps += count"),
-        ("a law of the small step", "mujoco.mj_forward(m, d)\n            mujoco.mj_implicit",
-         "mujoco.mj_forward(fine, d)\n            mujoco.mj_implicit"),
-        ("steps of another length", "h = fine.opt.timestep =", "h = fine.opt.timestep = 1.01 *"),
+        *(
+            pytest.param(what, *line, marks=pytest.mark.mutant(what))
+            for what, line in SMALL_STEPS.items()
+        ),
     ],
-)  # fmt: skip
+)
 def test_small_steps_reach_what_the_integrators_do(
     what: str, was: str, now: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -139,6 +139,38 @@ def test_what_flies_that_is_held_is_seen(monkeypatch: pytest.MonkeyPatch) -> Non
         start(boxes(lifted))
 
 
+@pytest.mark.parametrize(("mu", "stays"), [(0.334, True), (0.332, False)])
+def test_a_ladder_between_boxes_needs_a_third(mu: float, stays: bool) -> None:
+    """By forces at both ends that lean by ρ each, at a slope of 4/3: cot 2ρ = (1 - μ²)/2μ."""
+    case = scenes.scene("ladder_on_boxes", None, mu=mu)
+    assert rests(case) == stays
+
+
+LEDGE = """
+scene:
+  bodies:
+    base: {block: {mass: 2.0, width: 0.4, height: 0.2}}
+    shelf: {block: {mass: 1.0, width: 0.6, height: 0.1}}
+  contacts:
+    left: {between: [base.lower_left, ground.floor], friction: 0.5}
+    right: {between: [base.lower_right, ground.floor], friction: 0.5}
+    inner: {between: [shelf.lower_left, base.top], friction: 0.5}
+    edge: {between: [base.upper_right, shelf.bottom], friction: 0.5}
+initial: {base: {x: 0, y: 0.1, angle: 0}, shelf: {x: over, y: 0.25, angle: 0}}
+allow: {shelf.y: 1.0e-3}
+"""
+
+
+def test_a_wall_of_ten_bricks_rests() -> None:
+    assert rests(scenes.scene("wall_of_bricks"))
+
+
+@pytest.mark.parametrize(("over", "does"), [("0.199", "sticks"), ("0.201", "open")])
+def test_what_is_pushed_over_an_edge_tips(over: str, does: str) -> None:
+    states, _ = start(scenes.parsed(LEDGE.replace("over", over)))
+    assert f"inner {does}" in states
+
+
 THROWN = """
 scene:
   points: {O: [0, 0]}
