@@ -20,6 +20,7 @@ from ....cases.load import load
 from ....cases.scene.frame import PLANE
 from ....engines import place
 from ....engines.knobs import as_text
+from ...compare.own_rows import THEME as OWN_MODEL
 from ...tables.row import SPEED, Comparison, Rungs
 from ...tables.short_numbers import factor
 from ...tables.write import HERE, read
@@ -143,7 +144,8 @@ def _lines() -> Sequence[Line]:
 
 @cache
 def _rows() -> Sequence[Comparison]:
-    return read(HERE / "tolerance.csv", Comparison)
+    """The rows of scenes: a model's are against its own limit, and have a table of their own."""
+    return [row for row in read(HERE / "tolerance.csv", Comparison) if row.theme != OWN_MODEL]
 
 
 @cache
