@@ -24,7 +24,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as place:
         pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", place]
         subprocess.run([*pip, *FOLDERS], check=True)
-        versions = {one.name: one.version for one in distributions(path=[place])}
+        versions = {one.name.replace("_", "-"): one.version for one in distributions(path=[place])}
         for package, folder in FOLDERS.items():
             out = Path(place, "reports", package)
             run = [sys.executable, "-m", "textmech", "run", str(Path(place, folder)), "--causes"]
