@@ -55,6 +55,8 @@ def folder(tmp_path: Path) -> Path:
     case, settings = fenced("yaml", TEXT)
     (tmp_path / "my_case.yaml").write_text(case, encoding="utf-8")
     (tmp_path / "mine.yaml").write_text(settings, encoding="utf-8")
+    robot = ROOT / "cases" / "models" / "acrobot.xml"
+    shutil.copyfile(robot, tmp_path / "robot.xml")
     return tmp_path
 
 

@@ -15,7 +15,8 @@ from textmech.reports.tables.diff.folder import NOT_PACKED
 from textmech.reports.tables.row import OF_NO_RUN
 from textmech.reports.tables.write import ADVICE
 
-OF_THE_README = (*OF_NO_RUN, ADVICE, table.NAME, picture.NAME, "public_models.csv")  # and of the committed page
+# And of the committed page.
+OF_THE_README = (*OF_NO_RUN, ADVICE, table.NAME, picture.NAME, "public_models.csv")
 
 MAY_IMPORT = {
     "cases": {"cases"},

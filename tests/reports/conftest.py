@@ -19,6 +19,7 @@ from textmech.reports.compare.trial.trial import Trial, ways
 from textmech.reports.front.pytest_plugin import CaseItem, measured
 from textmech.reports.runs import suite
 from textmech.reports.runs.cache.store import usable
+from textmech.reports.runs.chosen_models import choose_models
 from textmech.reports.runs.processes import pool
 from textmech.reports.runs.request import Request
 from textmech.reports.runs.selection import choose_cases, choose_engines
@@ -201,4 +202,5 @@ def report(request: pytest.FixtureRequest) -> Report:
     if all(f"{c.name}-{e.name}.{e.setting}" in pairs for c in cases for e in engines):
         return measured(request.session)
     jobs, store = pool.workers(), usable()
-    return suite.measure(Request(cases, engines, jobs=jobs, store=store))
+    models = choose_models([]).cases
+    return suite.measure(Request(cases, engines, jobs=jobs, store=store, models=models))

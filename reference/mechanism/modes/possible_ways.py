@@ -142,7 +142,7 @@ class _Laws:
     def _friction(
         self, e: Element, normal: int | None, tangent: int, sizes: Array, size: float, state: Any
     ) -> _Friction:
-        """(2.89) Of a contact in proportion to its normal force, of a slide as it is given."""
+        """Returns the friction by (2.89): by a normal force, or as a slide gives it."""
         if normal is not None:
             unit_force = self.forces[normal] * sizes[tangent] / sizes[normal]
             static, kinetic = [e.static, e.static], [e.kinetic, e.kinetic]

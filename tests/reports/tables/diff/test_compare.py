@@ -52,7 +52,7 @@ def test_the_committed_reports_do_not_differ_from_themselves() -> None:
 @pytest.mark.slow
 def test_every_known_file_is_one_that_a_run_writes_with_these_columns() -> None:
     (folder,) = opened({"reports": write.HERE})
-    assert set(write.NAMES) == OF_A_RUN
+    assert set(write.NAMES) - {"models.csv"} == OF_A_RUN  # its numbers stand in the others
     assert set(folder.tables) == set(KNOWN)
     for name, columns in KNOWN.items():
         assert set(columns.needed) <= set(folder.tables[name][0])
