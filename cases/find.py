@@ -47,15 +47,15 @@ def _in(folder: Path) -> dict[str, Path]:
 
 def find(words: Sequence[str]) -> list[Path]:
     """The file of each word. Raises CaseError that names every word which is none."""
-    known, of_models = shipped(), models()
-    alike = [*known, *of_models]
+    case_files, model_files = shipped(), models()
+    alike = [*case_files, *model_files]
     paths: list[Path] = []
     mistakes: list[Mistake] = []
     for word in words:
         if not word:  # which is also how the folder here is called
             mistakes.append(Mistake("''", 0, 0, "", "no such case: the name is empty"))
             continue
-        path = known.get(word, Path(word))
+        path = case_files.get(word, Path(word))
         try:
             is_file, is_dir = path.is_file(), path.is_dir()
         except OSError as error:  # a name that no file can have
@@ -70,7 +70,7 @@ def find(words: Sequence[str]) -> list[Path]:
             mistakes.append(Mistake(word, 0, 0, "", f"is no file{leads}"))
         elif path.suffix in SUFFIXES:
             mistakes.append(Mistake(word, 0, 0, "", f"no such file{nearest(path.stem, alike)}"))
-        elif word.partition(".")[0] in of_models:
+        elif word.partition(".")[0] in model_files:
             mistakes.append(Mistake(word, 0, 0, "", "is a model, and has no scene"))
         else:
             own = [str(file) for end in SUFFIXES if (file := Path(word + end)).is_file()]

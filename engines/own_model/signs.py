@@ -36,7 +36,7 @@ class Signs:
     """The signs of a run of a model's own steps, beside its error.
 
     shakes: by velocity, as `seen.shaking` has them. at_limit: by the name of an actuator, joint or
-    tendon for which part of the steps a force is at its bound. y (N, k): the last state, at `end`.
+    tendon for which part of the steps a force is at its bound. y (k,): the state at the `end` [s].
     """
 
     shakes: Mapping[int, Shake]

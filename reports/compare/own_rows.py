@@ -84,7 +84,9 @@ def modelled(
     certificates = [*_certificates(case, parts)]
     if result.known <= KNOWN * min(ready.bars.values()):
         certificates.append(_known(case, result))
-    shown = seen(ready, result.limit, result.until)
+    own_errors = result.settings[0].errors
+    off = any(e.off is None or e.off.max() > ready.bars[q] for q, e in own_errors.items())
+    shown = seen(ready, result.limit, result.until, off=off)
     each = [(stepped, q, error) for stepped in result.settings for q, error in
             stepped.errors.items()]  # fmt: skip
     return Modelled(
@@ -108,12 +110,17 @@ def lost(case: ModelCase, because: str, verdict: str = CRASHED) -> Modelled:
     return Modelled(case, "", "", None, (), because, [row])
 
 
+def worst_of(rows: Sequence[Comparison]) -> Comparison:
+    """Returns the row that is furthest off of what is allowed; what has no error is further."""
+    return max(rows, key=lambda row: inf if row.error is None else row.ratio or 0.0)
+
+
 def line(model: Modelled, cure: str = "") -> ModelLine:
     """Returns a model's row of the table of models; cure: in words."""
     own = [row for row in model.comparisons if row.setting == OWN]
     if not own:
         return ModelLine(model.case.name, because=model.because)
-    worst = max(own, key=lambda row: inf if row.verdict == DIVERGED else row.ratio or 0.0)
+    worst = worst_of(own)
     settings = model.steps.settings if model.steps else ()
     best = max(settings, key=lambda each: each.keeps or 0.0, default=None)
     fails = [f"FAILS: {part.name}" for part in model.parts if not part.holds]

@@ -28,13 +28,19 @@ class Seen:
     beside: Sequence[str] = ()
 
     def of(self, quantity: Quantity) -> str:
-        """Returns what is seen of a joint's quantity, or, beside it, of the energy."""
-        k = quantity.first if quantity.of == "joint" else None
-        return self.joints.get(k, "")
+        """Returns what is seen of a joint, of a ball or a free one in any direction."""
+        if quantity.of != "joint":
+            return ""
+        directions = range(quantity.first, quantity.first + quantity.wide)
+        return "; ".join(self.joints[k] for k in directions if k in self.joints)
 
 
-def seen(opened: Opened, exact: Limit, until: float) -> Seen:
-    """Returns what the model's own steps show until a time [s], in words."""
+def seen(opened: Opened, exact: Limit, until: float, *, off: bool = True) -> Seen:
+    """Returns what the model's own steps show until a time [s], in words.
+
+    off: whether they are off by more than is allowed; else no energy is said to be lost, which of a
+    model at rest is much beside a kinetic energy of nothing.
+    """
     own = opened.own
     shown = signs(own, exact, until, opened.joints)
     if shown is None:
@@ -50,7 +56,7 @@ def seen(opened: Opened, exact: Limit, until: float) -> Seen:
     words = {
         k: _words(opened, exact, until, k, shown, short) for k in sorted({*short, *shown.shakes})
     }
-    return Seen({k: word for k, word in words.items() if word}, [*_beside(shown)])
+    return Seen({k: word for k, word in words.items() if word}, [*_beside(shown, off=off)])
 
 
 def _words(
@@ -75,14 +81,14 @@ def _shakes(exact: Limit, column: int, shake: Shake) -> bool:
     return np.abs(exact.y[inside, column]).max(initial=0.0) >= ARRIVES * shake.rate
 
 
-def _beside(shown: Signs) -> Iterator[str]:
+def _beside(shown: Signs, *, off: bool) -> Iterator[str]:
     most = sorted(shown.at_limit.items(), key=lambda each: -each[1])
     if most:
         each = ", ".join(f"{name} in {share:.0%}" for name, share in most[:FEW])
         yield f"at its force limit: {each} of the steps{', …' if most[FEW:] else ''}"
     by, kinetic = shown.lost.by, shown.lost.kinetic
     worst = float(by[np.argmax(np.abs(by))])
-    if abs(worst) > NOTABLE * kinetic:
+    if off and abs(worst) > NOTABLE * kinetic:
         verb = "lose" if worst > 0 else "gain"
         yield (
             f"its steps {verb} up to {abs(worst):.2g} J against its limit, whose kinetic energy is "

@@ -176,23 +176,23 @@ class _Laws:
         if rests:
             least.append(self.gives[0] * self.one - self.gives)  # else there may be no end
             cost = -self.gives
-        found = _programme(cost, zero, least)
-        return None if found is None or (rests and self.gives @ found < BEGINS) else found
+        forces = _programme(cost, zero, least)
+        return None if forces is None or (rests and self.gives @ forces < BEGINS) else forces
 
     def _along(
         self, k: int, tangent: int, closed: Sequence[State], *, opens: bool
     ) -> tuple[list[Array], list[Array]]:
         """Returns what is zero and what is not negative of friction and slip of what is closed."""
         rate, friction = self.rates[tangent], self.friction.get(k)
-        held = [] if opens or [*closed] != ["sticks"] else [rate]
+        stays = [] if opens or [*closed] != ["sticks"] else [rate]
         if friction is None:
-            return held, []
+            return stays, []
         if len(closed) > 1 or not (s := sign(closed[0])):
-            return held, [*friction.margins]
+            return stays, [*friction.margins]
         begins = [s * rate] if "sticks" in self.choices[k] and not opens else []
         return [friction.slides[s < 0]], begins
 
-    def most_broken(self, options: Sequence[Options], found: Array) -> int | None:
+    def most_broken(self, options: Sequence[Options], forces: Array) -> int | None:
         """Returns the element whose law is broken most, of those not yet decided; or None.
 
         By its power: of what presses and opens, and what slips and is not braked as it should be.
@@ -203,11 +203,11 @@ class _Laws:
                 powers[k] = 0.0
                 normal, tangent = self.at.get(k, (None, None))
                 if normal is not None:
-                    powers[k] = float(abs(self.rates[normal] @ found * found[1 + normal]))
+                    powers[k] = float(abs(self.rates[normal] @ forces * forces[1 + normal]))
                 if tangent is not None:
-                    rate, missing = float(self.rates[tangent] @ found), found[1 + tangent]
+                    rate, missing = float(self.rates[tangent] @ forces), forces[1 + tangent]
                     if k in self.friction:
-                        missing = self.friction[k].slides[rate < 0.0] @ found
+                        missing = self.friction[k].slides[rate < 0.0] @ forces
                     powers[k] = max(powers[k], abs(rate * float(missing)))
         return max(powers, key=powers.__getitem__, default=None)
 
@@ -218,13 +218,13 @@ def _programme(cost: Array, zero: Sequence[Array], least: Sequence[Array]) -> Ar
 
     equal, above = (np.array(rows).reshape(-1, len(cost)) for rows in (zero, least))
     programme: Any = linprog
-    found = programme(
+    answer = programme(
         cost[1:],
         A_ub=-above[:, 1:], b_ub=above[:, 0], A_eq=equal[:, 1:], b_eq=-equal[:, 0],
         bounds=(None, None),
     )  # fmt: skip
-    if found.status == INFEASIBLE:
+    if answer.status == INFEASIBLE:
         return None
-    if found.x is None:
-        raise ArithmeticError(f"a linear programme has no answer: {found.message}")
-    return np.append(1.0, found.x)
+    if answer.x is None:
+        raise ArithmeticError(f"a linear programme has no answer: {answer.message}")
+    return np.append(1.0, answer.x)

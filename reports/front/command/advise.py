@@ -23,7 +23,7 @@ from .options import (
     no_cache,
     overwrite,
 )
-from .own_advice import advised_models, lines
+from .own_advice import MARGIN, advised_models, lines
 
 if TYPE_CHECKING:
     from ...search.advice.advice_rows import Advised
@@ -44,7 +44,7 @@ PART = 1e-3  # of a quantity's own size: asked for of all cases, beside what eac
 @click.option(
     "--margin",
     type=Finite(min=1),
-    default=2.0,
+    default=MARGIN,
     show_default=True,
     help="How often the worst error has to fit into what is allowed.",
 )

@@ -103,10 +103,10 @@ def _setting(name: str, settings: str | None) -> "Setting":
         if asked is None or not asked.own:
             raise click.UsageError(f"{settings} holds no options of {ENGINE}")
         return asked.own[0]
-    known = {OWN: {}, **OTHERS}
-    if wanted and wanted not in known:
-        raise click.UsageError(f"a model has no setting {wanted!r}{nearest(wanted, known)}")
-    return Setting(wanted or OWN, known[wanted or OWN])
+    options = {OWN: {}, **OTHERS}
+    if wanted and wanted not in options:
+        raise click.UsageError(f"a model has no setting {wanted!r}{nearest(wanted, options)}")
+    return Setting(wanted or OWN, options[wanted or OWN])
 
 
 def _refuse_several(names: Sequence[str], word: str) -> None:

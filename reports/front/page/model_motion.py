@@ -119,8 +119,8 @@ def _drawing(own: OwnModel, y: Array) -> Drawing:
 def _corners(rows: Array, lines: list[Array]) -> Array:
     """(M, 3) [m] the places of a body and of its lines' corners in some of its states (N, 13)."""
     rows, corners = rows[thinned(len(rows), LOOKS)], np.concatenate([np.zeros((1, 3)), *lines])
-    seen = rows[:, None, SPACE.place] + turned(rows[:, None, SPACE.attitude], corners)
-    return seen.reshape(-1, 3)
+    places = rows[:, None, SPACE.place] + turned(rows[:, None, SPACE.attitude], corners)
+    return places.reshape(-1, 3)
 
 
 def _reach(lines: list[Array]) -> float:
@@ -166,7 +166,7 @@ def _values(ready: Opened, motion: Moved) -> dict[Quantity, Array]:
     m = ready.own.model
     single = [quantity for quantity in ready.bars if quantity.wide == 1 and quantity.of != "turn"]
     others = [quantity for quantity in single if quantity.of in ("sensor", "force", "energy")]
-    found = {quantity: rows[:, 0] for quantity, rows in observed(others, motion).items()}
+    values = {quantity: rows[:, 0] for quantity, rows in observed(others, motion).items()}
     joints = [quantity for quantity in single if quantity.of == "joint"]
     places = m.jnt_qposadr[m.dof_jntid[[quantity.first for quantity in joints]]]
-    return found | dict(zip(joints, motion.q[:, places].T, strict=True))
+    return values | dict(zip(joints, motion.q[:, places].T, strict=True))

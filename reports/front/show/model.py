@@ -1,11 +1,10 @@
 """Says of a user's model what it is, how far off its steps are, and what of it is compared."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import inf
 
 from ....cases.mistake import plain
 from ...compare import own_equations
-from ...compare.own_rows import Modelled
+from ...compare.own_rows import Modelled, worst_of
 from ...compare.own_steps import Stepped, Steps
 from ...tables.model_line import ModelLine
 from ...tables.row import REFUSED, Comparison
@@ -48,10 +47,6 @@ def cells(model: ModelLine) -> tuple[str, ...]:
     return tuple(map(plain, (model.case, own, keeps, model.cure.partition(";")[0], remark)))
 
 
-def _size(row: Comparison) -> float:
-    return inf if row.error is None else row.ratio or 0.0
-
-
 def model_lines(model: Modelled) -> Iterator[str]:
     """Returns the lines of a model."""
     head = f"{model.case.name}: {model.model}" if model.model else model.case.name
@@ -87,7 +82,7 @@ def _steps(model: Modelled, steps: Steps) -> Iterator[str]:
 
 def _line(model: Modelled, stepped: Stepped, rows: Sequence[Comparison]) -> str:
     setting = stepped.setting
-    worst = max(rows, key=_size)
+    worst = worst_of(rows)
     orders: Mapping[str, float | None] = {
         row.quantity: row.order for row in model.rungs if row.setting == setting.name
     }

@@ -120,7 +120,7 @@ class Keys:
         """The key of what is asked of a user's model; digest: of all its numbers."""
         case, code = task.case, self._code(ROOMS)
         values = [getattr(case, f.name) for f in fields(case) if f.name not in UNTOLD]
-        asked = [type(task).__name__, *(getattr(task, f.name) for f in fields(task)[1:])]
+        asked = [type(task), *(getattr(task, f.name) for f in fields(task) if f.name != "case")]
         words = repr(values), repr(asked), digest
         return _word("model", self.salt, *words, code, machine(), self.libraries or "")
 

@@ -115,7 +115,7 @@ def test_what_is_wedged_and_might_as_well_fall_is_refused() -> None:
 
 @pytest.mark.mutant("what forces can hold is taken for what rests")
 def test_a_rest_that_is_not_doubted_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    blind = otherwise(possible_ways, "self.gives @ found < BEGINS", "True")
+    blind = otherwise(possible_ways, "self.gives @ forces < BEGINS", "True")
     monkeypatch.setattr(mode_selection, "possible_ways", blind.possible_ways)
     assert rests(scenes.parsed(WEDGED))
 

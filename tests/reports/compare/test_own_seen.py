@@ -10,6 +10,7 @@ from textmech.cases.find import models
 from textmech.cases.load_model import load_model
 from textmech.cases.model_case import ModelCase, of_model
 from textmech.engines.own_model.opened import opened
+from textmech.engines.own_model.quantities import Quantity
 from textmech.reports.compare import own_seen, own_steps
 from textmech.reports.compare.own_rows import modelled
 from textmech.reports.compare.own_steps import limit_and_horizon, settings_of, steps, times_of
@@ -75,6 +76,29 @@ def test_energy_that_the_steps_lose() -> None:
     assert seen_of(case, wrong).beside[0].startswith("its steps lose up to")
 
 
+RESTS = """\
+<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 .0995"><freejoint name="box"/>
+<geom type="box" size=".1 .1 .1" mass="1"/></body></worldbody>
+<keyframe><key qpos="0 0 .0995 1 0 0 0"/></keyframe></mujoco>"""
+
+
+@pytest.mark.slow
+def test_of_what_rests_no_energy_is_said_to_be_lost() -> None:
+    """A tenth of a millijoule is several times all that it moves with, and nobody sees it."""
+    case = case_of(RESTS)
+    assert not modelled(case, ()).seen.beside
+    assert seen_of(case).beside  # without regard to what is allowed
+
+
+@pytest.mark.mutant("a ball that shakes about its second axis is called calm")
+def test_a_ball_shakes_in_any_direction() -> None:
+    quantity = Quantity("ball.turn", "rad", "joint", 3, 3)
+    shown = own_seen.Seen({4: "ball shakes", 6: "other shakes"})
+    assert shown.of(quantity) == "ball shakes"
+    wrong = otherwise(own_seen, "quantity.first + quantity.wide", "quantity.first + 1")
+    assert wrong.Seen(shown.joints).of(quantity) == ""
+
+
 LANDS = """\
 <mujoco><option timestep="0.002" iterations="1" ls_iterations="1"/><worldbody>
 <geom type="plane" size="1 1 1"/>
@@ -92,7 +116,7 @@ def test_few_iterations_cost_what_a_row_of_its_own_says() -> None:
     few, many = (rows[name].errors[q].off for name in ("own", "solver"))
     assert few is not None
     assert many is not None
-    assert few.max() > 1.5 * many.max()
+    assert few.max() > 1.5 * many.max()  # what one iteration costs is no less than half of the step
 
 
 @pytest.mark.mutant("fewer iterations are no setting of their own")

@@ -85,7 +85,7 @@ def test_the_worst_quantity_is_told(models: Path, monkeypatch: pytest.MonkeyPatc
     (models / "coarse.xml").write_text(two, encoding="utf-8")
     report = measure(requested([], [], [], models=chosen.cases))
     assert report.lines[0].quantity == "swing.angle"
-    wrong = otherwise(own_rows, "worst = max(own", "worst = min(own")
+    wrong = otherwise(own_rows, "return max(rows", "return min(rows")
     assert wrong.line(report.models[0]).quantity == "still.angle"
 
 
