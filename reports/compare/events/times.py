@@ -16,7 +16,8 @@ from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import AROUND, bent, lasting, leaps, passages, touches
+from ....cases.scene.passages import AROUND, lasting, passing
+from ....cases.scene.passages import pieces as smooth_pieces
 from ....cases.scene.quantity import at_event, table
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
@@ -37,89 +38,62 @@ STEADY = 0.5  # of the last fall: so well steps foretell the next where nothing 
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
-    """Times (K,) [s] of the event, from the boundaries of the reference's phases.
+    """Times (K,) [s] of the event, from the smooth pieces of the reference.
 
-    What moves may also begin or end to rest where a law jumps or bends, in one phase.
+    One ends with a phase, or where a law jumps or bends: there what moves may begin or end to rest.
     """
-    u, small, pieces = _pieces(scene, record, event)
-    parts = _parted(scene, record, event, pieces)
-    phases = _phases(scene, record, event, u, small, parts)
-    times = [before.end for before, after in pairwise(phases) if _happens(event, before, after)]
-    if event.crosses:
-        corners = scene.corners()
-        for piece in _moving(record, parts, phases):
-            times += passages(record.times[piece], u[piece], small, corners)
+    pieces, small = _pieces(scene, record, event)
+    times = [before.end for before, after in pairwise(pieces) if _happens(event, before, after)]
+    for piece in pieces if event.crosses else ():
+        times += [t for t, curve in passing(piece.times, piece.u, small) if curve]
     return np.array(sorted(times), float)
 
 
-def _parted(
-    scene: Scene, record: Trajectory, event: Event, pieces: Sequence[NDArray[np.int64]]
-) -> list[NDArray[np.int64]]:
-    """The pieces, of a place or a rate also cut at the corners of laws: there it has no jump."""
-    if table(scene)[event.quantity].kind == "force":
-        return [*pieces]
-    found: list[NDArray[np.int64]] = []
-    for piece in pieces:
-        inside = np.isin(record.times[piece], list(scene.corners()))
-        inside[0] = inside[-1] = False
-        ends = [0, *np.flatnonzero(inside).tolist(), len(piece) - 1]
-        found += [piece[begin : end + 1] for begin, end in pairwise(ends)]
-    return found
-
-
-def _moving(
-    record: Trajectory, parts: Sequence[NDArray[np.int64]], phases: Sequence["_Phase"]
-) -> Iterator[NDArray[np.int64]]:
-    """Yields the parts of one phase that follow each other, between those in which u stays zero."""
-    assert record.phase is not None
-    joined: list[NDArray[np.int64]] = []
-    for part, phase in zip(parts, phases, strict=True):
-        if joined and (not phase.moves or record.phase[joined[-1][0]] != record.phase[part[0]]):
-            yield np.unique(np.concatenate(joined))
-            joined = []
-        if phase.moves:
-            joined.append(part)
-    if joined:
-        yield np.unique(np.concatenate(joined))
-
-
 @dataclass(frozen=True)
-class _Phase:
-    """A piece of the record, as an event sees it: whether its quantity leaves zero.
+class _Piece:
+    """A smooth piece of the record, as an event sees it: whether its quantity leaves zero.
 
     comes: the last value before it comes to zero at the end of the piece, whose sign is the side
     from which it does; 0 if it does not. fades: whether it counts as zero there, and has only
-    decayed. end: of the piece [s]; within: whether its phase goes on there, at a corner of a law.
+    decayed. goes: the first value that is not zero, or 0. within: whether its phase goes on at its
+    end, a corner of a law.
     """
 
+    times: Array
+    u: Array
     moves: bool
     comes: float
     fades: bool
-    end: float
+    goes: float
     within: bool
 
+    @property
+    def end(self) -> float:
+        """Its last instant [s]."""
+        return float(self.times[-1])
 
-def _phases(
-    scene: Scene,
-    record: Trajectory,
-    event: Event,
-    u: Array,
-    small: float,
-    pieces: Sequence[NDArray[np.int64]],
-) -> list[_Phase]:
-    """Each piece by the size of u, and by what ended it: a hop may be smaller than what counts."""
-    assert record.phase is not None  # the reference's record has it
-    names, found = _names(scene, event), list[_Phase]()
-    numbers = [int(record.phase[piece[0]]) for piece in pieces]
-    for piece, number, then in zip(pieces, numbers, [*numbers[1:], len(record.ended)], strict=True):
+
+def _pieces(scene: Scene, record: Trajectory, event: Event) -> tuple[list[_Piece], float]:
+    """Each piece of u, which falls to zero at the event, and the size that counts as zero.
+
+    What ended a piece tells too: a hop may be smaller than what counts.
+    """
+    names, found = _names(scene, event), list[_Piece]()
+    u = event.falling(observe(scene, record, event.quantity))
+    small = still(scene, record, event.quantity)
+    parts = [*smooth_pieces(record, u, scene.corners())]
+    for k, (number, times, values) in enumerate(parts):
+        then = parts[k + 1][0] if k + 1 < len(parts) else len(record.ended)
         ended = any(name in names for name in record.ended[number:then])
-        times, values, clear = record.times[piece], u[piece], np.abs(u[piece]) > small
-        last = int(np.flatnonzero(clear)[-1] if np.any(clear) else np.argmax(np.abs(values)))
-        moves, ends = ended or bool(clear[last]), clear[last] and not clear[-1]
+        clear = np.flatnonzero(np.abs(values) > small)
+        last = int(clear[-1] if len(clear) else np.argmax(np.abs(values)))
+        ends = len(clear) > 0 and last < len(values) - 1
         fades = not ended and ends and _decays(times[last:], values[last:])
         comes = float(values[last]) if ended or (ends and not fades) else 0.0
-        found.append(_Phase(moves, comes, fades, float(times[-1]), number == then))
-    return found
+        goes = float(values[clear[0]]) if len(clear) else 0.0
+        moves = ended or len(clear) > 0
+        found.append(_Piece(times, values, moves, comes, fades, goes, number == then))
+    return found, small
 
 
 def _decays(times: Array, u: Array) -> bool:
@@ -160,18 +134,10 @@ def _names(scene: Scene, event: Event) -> set[str]:
     return found
 
 
-def _pieces(
-    scene: Scene, record: Trajectory, event: Event
-) -> tuple[Array, float, list[NDArray[np.int64]]]:
-    """The u (N,) that falls to zero at the event, the size that counts as zero, rows by phase."""
-    u = event.falling(observe(scene, record, event.quantity))
-    return u, still(scene, record, event.quantity), lasting(record)
-
-
-def _happens(event: Event, before: _Phase, after: _Phase) -> bool:
+def _happens(event: Event, before: _Piece, after: _Piece) -> bool:
     """Whether the event is where one piece ends and the next begins."""
     if event.crosses:
-        return before.comes > 0.0 and not (before.within and after.moves)
+        return before.comes > 0.0 and not (before.within and after.goes > 0.0)
     if event.rule == "stays zero":
         return before.moves and not before.fades and not after.moves
     return not before.moves and after.moves
@@ -198,17 +164,10 @@ def jumped(scene: Scene, record: Trajectory, event: Event, happened: Array) -> A
     """
     if not event.crosses:
         return np.zeros(0)
-    u, small, pieces = _pieces(scene, record, event)
-    found = [
-        float(record.times[before[-1]])
-        for before, after in pairwise(pieces)
-        if u[before[-1]] > small >= u[after[0]]
-    ]
-    for piece in pieces:
-        for t, came, goes in leaps(record.times[piece], u[piece], scene.corners()):
-            found += [t] if came > small >= goes else []
+    pieces, small = _pieces(scene, record, event)
+    times = [before.end for before, after in pairwise(pieces) if before.u[-1] > small >= after.u[0]]
     near = TOUCHES * float(record.times[-1] - record.times[0])
-    return np.array([t for t in sorted(found) if not np.any(np.abs(happened - t) <= near)], float)
+    return np.array([t for t in times if not np.any(np.abs(happened - t) <= near)], float)
 
 
 def engine_events(
@@ -298,34 +257,30 @@ def _comes_to_rest(scene: Scene, record: Trajectory, event: Event) -> bool:
     """Whether a rate falls to zero in the reference and stays there."""
     if event.value or table(scene)[event.quantity].unit not in ("m/s", "rad/s"):
         return False
-    u, small, pieces = _pieces(scene, record, event)
-    phases = _phases(scene, record, event, u, small, _parted(scene, record, event, pieces))
-    return any(before.comes > 0.0 and not after.moves for before, after in pairwise(phases))
+    pieces, _ = _pieces(scene, record, event)
+    return any(before.comes > 0.0 and not after.moves for before, after in pairwise(pieces))
 
 
 def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tuple[Array, Array]:
     """Times (N,) of steps so large [s], and the reference's u (N,) there, by splines."""
     from scipy.interpolate import make_interp_spline
 
-    u, _, pieces = _pieces(scene, record, event)
     begin, end = float(record.times[0]), float(record.times[-1])
     count = int((end - begin) / step + WHOLE)
     times = np.minimum(begin + step * np.arange(count + 1, dtype=np.float64), end)
-    found = np.zeros_like(times)
-    for rows in pieces:
-        bends = [0, *bent(record.times[rows], scene.corners()), len(rows) - 1]
-        for part in (rows[a : b + 1] for a, b in pairwise(sorted({*bends}))):
-            at, kept = np.unique(record.times[part], return_index=True)
-            inside = slice(*np.searchsorted(times, [at[0], np.nextafter(at[-1], np.inf)]).tolist())
-            # An event on a sample leaves rows that are an ulp apart: no curve goes through both.
-            apart = np.append(True, np.diff(at) > CLOSE * np.max(np.diff(at), initial=0.0))
-            at, values = at[apart], u[part][kept][apart]
-            if len(at) > 1:
-                odd = min(AROUND, len(at)) // 2 * 2 - 1
-                found[inside] = make_interp_spline(at, values, k=odd)(times[inside])
-            else:
-                found[inside] = values
-    return times, found
+    u = np.zeros_like(times)
+    for piece in _pieces(scene, record, event)[0]:
+        at = piece.times
+        inside = slice(*np.searchsorted(times, [at[0], np.nextafter(at[-1], np.inf)]).tolist())
+        # An event on a sample leaves rows that are an ulp apart: no curve goes through both.
+        apart = np.append(True, np.diff(at) > CLOSE * np.max(np.diff(at)))
+        at, values = at[apart], piece.u[apart]
+        if len(at) > 1:
+            odd = min(AROUND, len(at)) // 2 * 2 - 1
+            u[inside] = make_interp_spline(at, values, k=odd)(times[inside])
+        else:
+            u[inside] = values
+    return times, u
 
 
 def falls(times: Array, u: Array, small: float = 0.0) -> Array:
@@ -473,8 +428,8 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
 
 def _at_the_end(scene: Scene, record: Trajectory, event: Event) -> bool:
     """Whether its quantity comes to zero in the last row, as the event has it, and at once."""
-    u, small, pieces = _pieces(scene, record, event)
-    came = _phases(scene, record, event, u, small, pieces)[-1].comes
+    pieces, small = _pieces(scene, record, event)
+    came = pieces[-1].comes
     return {"stays zero": abs(came), "leaves zero": 0.0}.get(event.rule, came) > AT_ONCE * small
 
 
@@ -488,7 +443,8 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
     record = reference.record
     if record is None or not event.crosses:
         return None
-    u, small, _ = _pieces(case.scene, record, event)
+    u = event.falling(observe(case.scene, record, event.quantity))
+    small = still(case.scene, record, event.quantity)
     times, told = reference_events(case.scene, record, event), _names(case.scene, event)
     for pile in reference.endless:
         beside = BESIDE * float(pile[-1] - pile[-2])
@@ -525,17 +481,22 @@ def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
 def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
     """A mistake for every event of which rounding says whether it happens."""
     for name, event in case.events.items():
-        u, small, pieces = _pieces(case.scene, record, event)
-        for piece in pieces if event.crosses else ():
-            happens = reference_events(case.scene, record, event)
-            for t in touches(record.times[piece], u[piece], small, case.scene.corners()):
-                if np.any(np.abs(happens - t) <= TOUCHES * case.duration):
-                    continue  # it stays there until a law lets it go
-                what = (
-                    f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
-                    f"within {small:.1e}: whether it gets there is rounding; give another value"
-                )
-                yield case.mistake(("events", name), what)
+        pieces, small = _pieces(case.scene, record, event)
+        for t in _touches(pieces, small) if event.crosses else ():
+            what = (
+                f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
+                f"within {small:.1e}: whether it gets there is rounding; give another value"
+            )
+            yield case.mistake(("events", name), what)
+
+
+def _touches(pieces: Sequence[_Piece], small: float) -> Iterator[float]:
+    """Times [s] at which u comes to zero in a phase and turns back."""
+    for piece in pieces:
+        yield from (t for t, curve in passing(piece.times, piece.u, small) if curve is None)
+    for before, after in pairwise(pieces):
+        if before.within and before.comes * after.goes > 0.0:
+            yield before.end
 
 
 def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:

@@ -366,7 +366,7 @@ def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
 
 @pytest.mark.mutant("what touches the value of an event is none, without a word")
 def test_a_graze_that_is_not_said_is_certified(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reading, "touches", lambda *_: iter(()))
+    monkeypatch.setattr(reading, "_touches", lambda *_: iter(()))
     with pytest.raises(AssertionError):
         test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10)
 

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
-from textmech.cases.scene.passages import passages
+from textmech.cases.scene.passages import passing
 from textmech.cases.trajectory import VX, Array, Trajectory, X
 from textmech.reports.compare.events import rests as reading
 from textmech.reports.compare.events import times as event_times
@@ -209,7 +209,7 @@ def test_what_turns_above_zero_does_not_fall_to_it() -> None:
     for lowest in (0.5, 1e-3):
         u = lowest + (t - 0.3) ** 2
         assert len(falls(t, u)) == 0
-        assert list(passages(t, u, 1e-9)) == []
+        assert list(passing(t, u, 1e-9)) == []
 
 
 NEAR, WIDE = 5e-8, 2e-3
