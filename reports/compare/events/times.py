@@ -21,20 +21,19 @@ from ....cases.scene.passages import pieces as smooth_pieces
 from ....cases.scene.quantity import at_event, table
 from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
-from .rests import LOW, SHARES, STEPS, rests
+from .rests import LOW, SHARES, STEPS, Rest, rests
 
 CLOSE = 1e-6  # of the largest step of a march: rows as close are one
 WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
-SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
+SURE = 2  # times an engine's steps: what they tell of the reference no engine near it can miss
 SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
 FLAT = 8  # times what a line needs to zero: what comes there by its eighth power takes as long
 AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
 TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
-STEADY = 0.5  # of the last fall: so well steps foretell the next where nothing trembles or strikes
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
@@ -182,80 +181,71 @@ def engine_events(
     known = known or Known()
     times, u = record.times, event.falling(observe(scene, record, event.quantity))
     small = still(scene, record, event.quantity)
-    found = _read(times, u, event, known, small)
-    larger = [each for each in reversed(SHARES) if each > known.share > 0.0]
-    if known.happened is None or len(found) == len(known.happened):
-        return found
-    others = (_read(times, u, event, replace(known, share=each), small) for each in larger)
-    return next((other for other in others if len(other) == len(known.happened)), found)
+    shares = known.share, *(share for share in reversed(SHARES) if share > known.share > 0.0)
+    readings = (_read(times, u, event, replace(known, share=share), small) for share in shares)
+    first = next(readings)
+    if known.happened is None or len(first) == len(known.happened):
+        return first
+    return next((other for other in readings if len(other) == len(known.happened)), first)
 
 
 def _read(times: Array, u: Array, event: Event, known: Known, small: float) -> Array:
     """Times (K,) [s] of the event, from u (N,) at steps; small: as `falls` says."""
-    if not event.crosses:
-        found = rests(times, u, known.share or LOW)
-        ends = [stop if event.rule == "stays zero" else start for stop, start in found]
-        return np.array([t for t in ends if t is not None], float)
-    fallen = falls(times, u, small)
-    return _without_jumps(_to_rest(times, u, fallen, known.share) if known.share else fallen, known)
+    ends = rests(times, u, known.share or LOW) if known.share or not event.crosses else []
+    if event.crosses:
+        return _without_jumps(_falls_and_stops(times, u, ends, small), known)
+    sides = (start if event.rule == "leaves zero" else stop for stop, start in ends)
+    return np.array([t for t in sides if t is not None], float)
 
 
-def _without_jumps(found: Array, known: Known) -> Array:
-    """The times without those that belong to jumps of the reference, and to none of its events."""
-    if not known.jumps or not len(found):
-        return found
-    all_times = np.array([*(known.happened or ()), *known.jumps])
-    order = np.argsort(all_times)
-    jumps = (np.arange(len(order)) >= len(order) - len(known.jumps))[order]
-    if len(found) <= len(order):
-        return found[~jumps[nearest(found, all_times[order])]]
-    return np.delete(found, nearest(all_times[order], found)[jumps])
+def _without_jumps(times: Array, known: Known) -> Array:
+    """The times without the nearest to each jump of the reference, if no event of it is nearer."""
+    for jump in known.jumps if len(times) else ():
+        nearest_to_it = int(np.argmin(np.abs(times - jump)))
+        others = np.abs(np.array(known.happened or (np.inf,)) - times[nearest_to_it])
+        if abs(times[nearest_to_it] - jump) < np.min(others):
+            times = np.delete(times, nearest_to_it)
+    return times
 
 
-def _to_rest(times: Array, u: Array, fallen: Array, share: float) -> Array:
-    """When u (N,) falls to zero, also where it stays there: what it then is only trembles.
+def _falls_and_stops(times: Array, u: Array, ends: Sequence[Rest], small: float) -> Array:
+    """When u (N,) falls to zero, also where it rests there: what it then is only trembles.
 
-    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign. What
-    swings by more than 1e-4 of the largest value does not only tremble.
+    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign.
     """
-    found, beside = fallen.tolist(), STEPS * float(times[1] - times[0])
-    small = SMALL * float(np.max(np.abs(u)))
-    for stop, start in rests(times, u, share):
-        if stop is None or not np.sum(u[times < stop][-STEPS:]) > 0.0:
-            continue
-        until, last = float(times[-1]) if start is None else start, stop + beside
-        kept = [t for t in found if not stop - beside <= t <= until]
-        for t in (t for t in found if last < t <= until):
-            hump = u[(times > last) & (times < t)]
-            kept += [t] if np.max(hump, initial=0.0) > small else []
-            last = t
-        found = [*kept, stop]
-    return np.array(sorted(found), float)
+    at_rest = np.zeros(len(u), bool)
+    for stop, start in ends:
+        begin, end = times[0] if stop is None else stop, times[-1] if start is None else start
+        at_rest |= (begin <= times) & (times <= end)
+    fallen = falls(times, np.where(at_rest, 0.0, u), small)
+    for stop in (stop for stop, _ in ends if stop is not None):
+        fallen[np.abs(fallen - stop) <= STEPS * (times[1] - times[0])] = stop
+    return np.unique(fallen)
 
 
-def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> float:
-    """The share of the largest value with which `rests` reads the reference's events right.
+def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> Known:
+    """How an engine's steps so large [s] are read, given when the event happens in the reference.
 
-    With it steps so large [s] tell each of them within a step; 2 % where no share does. It is 0
-    where nothing rests, or none of them reads what also falls to zero: what only decays to zero
-    does not fall to it.
+    The share is the largest with which they tell each of the reference's own events within a step;
+    2 % where none does. It is 0 where nothing rests, or none of them reads what also falls to zero:
+    what only decays to zero does not fall to it.
     """
+    jumps = jumped(scene, record, event, happened)
+    known = Known(0.0, (*happened.tolist(),), (*jumps.tolist(),))
     if event.crosses and not _comes_to_rest(scene, record, event):
-        return 0.0
+        return known
     times, u = _at_steps(scene, record, event, step)
     small = still(scene, record, event.quantity)
-    known = Known(0.0, (*happened,), (*jumped(scene, record, event, happened),))
-
-    def right(share: float) -> bool:
-        found = _read(times, u, event, replace(known, share=share), small)
-        return len(found) == len(happened) and bool(np.all(np.abs(found - happened) <= step))
-
-    return next((share for share in SHARES if right(share)), 0.0 if event.crosses else LOW)
+    for share in SHARES:
+        read = _read(times, u, event, replace(known, share=share), small)
+        if len(read) == len(happened) and np.all(np.abs(read - happened) <= step):
+            return replace(known, share=share)
+    return known if event.crosses else replace(known, share=LOW)
 
 
 def _comes_to_rest(scene: Scene, record: Trajectory, event: Event) -> bool:
     """Whether a rate falls to zero in the reference and stays there."""
-    if event.value or table(scene)[event.quantity].unit not in ("m/s", "rad/s"):
+    if table(scene)[event.quantity].unit not in ("m/s", "rad/s"):
         return False
     pieces, _ = _pieces(scene, record, event)
     return any(before.comes > 0.0 and not after.moves for before, after in pairwise(pieces))
@@ -284,30 +274,26 @@ def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tu
 
 
 def falls(times: Array, u: Array, small: float = 0.0) -> Array:
-    """When u (N,) falls to zero, as `_through` says.
+    """When u (N,) falls to zero: where it changes its sign, or comes to zero and turns back.
 
-    Up to `small` it is zero, as the reference's, if it comes there at once: a rope that an exact
-    impact has pulled taut stays so up to rounding, of either sign. What only decays does not.
     An impact may turn u back before any step sees it at zero: then it is the zero of what went
-    before, if that has one within the next step and u then rises, as `_turned` says.
-    What rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
+    before, if that has one within the next step, and u then rises or is zero, up to `small`. What
+    rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
-    before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
-    turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
-    last = (2 * u[-2:-1] <= u[-3:-2]) & (u[-2:-1] > 0) & (u[-1:] > 0)  # behind it no step tells
-    turned = np.append(turned, last)
-    through = (u[:-1] > 0) & (u[1:] <= 0)
-    through |= (u[:-1] > AT_ONCE * small) & (u[1:] <= small)
-    seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
-    for i in (np.flatnonzero(turned) + 1).tolist():
-        if (zero := _turned(times, u, i)) is not None:
-            seen[i] = zero
+    now, after = u[:-1], u[1:]
+    before, then = np.append(-np.inf, u[:-2]), np.append(u[2:], np.inf)
+    through = (now > 0) & (after <= 0)
+    turned = (after <= small) | ((2 * now <= before) & (then > after))
+    turned &= (now > small) & (after > 0)
     largest, last = float(np.max(np.abs(u))), 0
     found: list[float] = []
-    for i, t in sorted(seen.items()):
-        if _off(u[last : i + 1], largest):
-            found.append(t)
-        last = i + 1
+    for i in np.flatnonzero(through | turned).tolist():
+        zero = _of_curve(times, u, i)
+        if zero is None and through[i]:
+            zero = _of_line(times, u, i)
+        if zero is not None:
+            found += [zero] if _off(u[last : i + 1], largest) else []
+            last = i + 1
     return np.array(found, float)
 
 
@@ -317,30 +303,22 @@ def _off(u: Array, largest: float) -> bool:
 
 
 def surely(
-    scene: Scene, record: Trajectory, event: Event, happened: Array, step: float, share: float
+    scene: Scene, record: Trajectory, event: Event, known: Known, step: float
 ) -> NDArray[np.int64]:
-    """Which of the reference's events, at these times (K,), steps of this size tell for sure.
+    """Which of the reference's events steps of this size [s] tell for sure.
 
-    A ball that comes to rest bounces ever lower: what lasts a few steps, or rises by 1e-4 of the
-    first height, may be seen in an engine's motion or not. Of rests it is those which are read from
-    such steps of the reference itself; share: as `reading` says.
+    Those which are read from the reference itself at such steps, of what passes at twice as large:
+    a ball that comes to rest bounces ever lower, and what lasts a few steps may be seen in an
+    engine's motion or not.
     """
+    happened = np.array(known.happened or ())
     if not len(happened):
         return np.arange(0)
-    if not event.crosses:
-        small = still(scene, record, event.quantity)
-        found = _read(*_at_steps(scene, record, event, step), event, Known(share), small)
-        partners = nearest(found[: len(happened)], happened)
-        close = np.abs(found[: len(happened)] - happened[partners]) <= STEPS * step
-        return partners[close]
-    u = event.falling(observe(scene, record, event.quantity))
-    largest = float(np.max(np.abs(u)))
-    humps = [
-        (end - start, np.max(u[(record.times >= start) & (record.times <= end)]))
-        for start, end in pairwise([float(record.times[0]), *happened.tolist()])
-    ]
-    long, high = SURE * STEPS * step, SURE * SMALL * largest
-    return np.flatnonzero([bool(lasts >= long and height >= high) for lasts, height in humps])
+    times, u = _at_steps(scene, record, event, step * (SURE if event.crosses else 1))
+    small = still(scene, record, event.quantity)
+    found = _read(times, u, event, Known(known.share), small)[: len(happened)]
+    partners = nearest(found, happened)
+    return partners[np.abs(found - happened[partners]) <= STEPS * step]
 
 
 def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
@@ -359,78 +337,45 @@ def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
     return np.array(found[::-1], dtype=np.int64)
 
 
-def _through(times: Array, u: Array, i: int, line: int) -> float:
-    """The zero after step i: of the curve through the steps up to it, if it is within the next.
+def _of_curve(times: Array, u: Array, i: int) -> float | None:
+    """The first zero after step i and within the next, of the curve through the steps up to it.
 
     What happens then, as an impact or the end of a force, spoils a curve to the steps behind, and
-    already the line to the next. Where steps tremble too much for any curve a line tells, through
-    steps `line` and the next.
-    """
-    zero = _of_curve(times, u, i) if i >= CURVE - 1 else None
-    return _zero(times, u, line) if zero is None else zero
-
-
-def _turned(times: Array, u: Array, i: int) -> float | None:
-    """The zero after step i, where u is above zero again at the next; None where it only came near.
-
-    A curve that goes on as its steps before foretell, and has no zero, turns by itself.
+    already the line to the next.
     """
     if i < CURVE - 1:
-        return _zero(times, u, i - 1)
-    zero = _of_curve(times, u, i)
-    before = slice(i - CURVE + 1, i)
-    foretold = np.polyval(np.polyfit(times[before] - times[i], u[before], CURVE - 2), 0.0)
-    steady = abs(foretold - u[i]) <= STEADY * (u[i - 1] - u[i])
-    return _zero(times, u, i - 1) if zero is None and not steady else zero
-
-
-def _of_curve(times: Array, u: Array, i: int) -> float | None:
-    """The first zero after step i and within the next, of the curve through the steps up to it."""
+        return None
     h = float(times[i + 1] - times[i])
     rows = slice(i - CURVE + 1, i + 1)
     roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
     zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
-    inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
+    inside = zeros[(zeros > 0.0) & (zeros <= 1.0 + TREMBLE)]
     return float(times[i]) + h * float(np.min(inside)) if len(inside) else None
 
 
-def _zero(times: Array, u: Array, i: int) -> float:
+def _of_line(times: Array, u: Array, i: int) -> float:
     """The zero [s] of the line through steps i and i + 1."""
     return float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
 
 
 def never(case: Case, reference: Trajectory) -> list[Mistake]:
-    """A mistake for every event that the reference does not know, or has at its last instant.
+    """A mistake for every event that the reference does not know.
 
     A contact that starts above the floor may be named and not land in time: that no engine lets it
     land earlier is a claim too, and only a bound on its time, or on what is then, compares nothing.
     """
-    record = reference.record
     found: list[Mistake] = []
     for name, event in case.events.items():
-        assert record is not None  # of a case with events
-        places: list[tuple[str, ...]] = [("events", name)]
-        if _at_the_end(case.scene, record, event):
-            what = (
-                f"comes at the last instant, {case.duration:g} s: whether it still happens is "
-                "rounding; take another duration"
-            )
-        elif len(reference_events(case.scene, record, event)):
+        assert reference.record is not None  # of a case with events
+        if len(reference_events(case.scene, reference.record, event)):
             continue
-        else:
-            what = f"never happens in {case.duration:g} s: nothing is compared"
+        places: list[tuple[str, ...]] = [("events", name)]
         if _falls_later(case.scene, reference, event):
             bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
             places = [("allow", bound) for bound in bounds]
+        what = f"never happens in {case.duration:g} s: nothing is compared"
         found += [case.mistake(place, what) for place in places]
     return found
-
-
-def _at_the_end(scene: Scene, record: Trajectory, event: Event) -> bool:
-    """Whether its quantity comes to zero in the last row, as the event has it, and at once."""
-    pieces, small = _pieces(scene, record, event)
-    came = pieces[-1].comes
-    return {"stays zero": abs(came), "leaves zero": 0.0}.get(event.rule, came) > AT_ONCE * small
 
 
 def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
@@ -482,6 +427,13 @@ def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
     """A mistake for every event of which rounding says whether it happens."""
     for name, event in case.events.items():
         pieces, small = _pieces(case.scene, record, event)
+        came = pieces[-1].comes
+        if {"stays zero": abs(came), "leaves zero": 0.0}.get(event.rule, came) > AT_ONCE * small:
+            what = (
+                f"comes at the last instant, {case.duration:g} s: whether it still happens is "
+                "rounding; take another duration"
+            )
+            yield case.mistake(("events", name), what)
         for t in _touches(pieces, small) if event.crosses else ():
             what = (
                 f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "

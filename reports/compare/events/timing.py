@@ -14,7 +14,7 @@ from ....cases.case import Case, Event
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
 from ....reference.solve import motion_of
-from .times import Known, jumped, nearest, reading, reference_events, surely
+from .times import Known, nearest, reading, reference_events, surely
 
 
 @dataclass(frozen=True)
@@ -49,9 +49,9 @@ class Timing:
         if self.record is None:
             return np.arange(0)
         if (event, step) not in self._sure:
-            happened, share = self.events[event], self.known(step)[event].share
+            known = self.known(step)[event]
             self._sure[event, step] = surely(
-                self.scene, self.record, self.named[event], happened, step, share
+                self.scene, self.record, self.named[event], known, step
             )
         return self._sure[event, step]
 
@@ -76,25 +76,14 @@ class Timing:
 
     def known(self, step: float) -> dict[str, Known]:
         """How each event is read from such steps [s], and when it happens or might."""
-        if step not in self._known:
-            self._known[step] = {name: self._read(name, step) for name in self.named}
-        return self._known[step]
-
-    def _read(self, name: str, step: float) -> Known:
-        happened, share = self.events[name], 0.0
-        if self.record is not None:
-            share = reading(self.scene, self.record, self.named[name], happened, step)
-        return Known(share, (*happened.tolist(),), self._jumps[name])
-
-    @cached_property
-    def _jumps(self) -> dict[str, tuple[float, ...]]:
-        """When [s] the reference jumps across an event's value, which each rung has to know."""
         if self.record is None:
-            return dict.fromkeys(self.named, ())
-        return {
-            name: (*jumped(self.scene, self.record, event, self.events[name]).tolist(),)
-            for name, event in self.named.items()
-        }
+            return {}
+        if step not in self._known:
+            self._known[step] = {
+                name: reading(self.scene, self.record, event, self.events[name], step)
+                for name, event in self.named.items()
+            }
+        return self._known[step]
 
     @cached_property
     def motion(self) -> Callable[[Array], Trajectory]:
