@@ -16,7 +16,7 @@ from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import AROUND, lasting, passing
+from ....cases.scene.passages import AROUND, passing
 from ....cases.scene.passages import pieces as smooth_pieces
 from ....cases.scene.quantity import at_event, table
 from ....cases.scene.still import still
@@ -28,7 +28,6 @@ WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
 SURE = 2  # times an engine's steps: what they tell of the reference no engine near it can miss
-SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
 FLAT = 8  # times what a line needs to zero: what comes there by its eighth power takes as long
 AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
@@ -50,20 +49,20 @@ def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
 
 @dataclass(frozen=True)
 class _Piece:
-    """A smooth piece of the record, as an event sees it: whether its quantity leaves zero.
+    """A smooth piece of the record, as an event sees it.
 
-    comes: the last value before it comes to zero at the end of the piece, whose sign is the side
-    from which it does; 0 if it does not. fades: whether it counts as zero there, and has only
-    decayed. goes: the first value that is not zero, or 0. within: whether its phase goes on at its
-    end, a corner of a law.
+    named: whether the mechanism says that its quantity comes to its value at the end. comes, goes:
+    the last value before it comes to zero there, whose sign is its side, and the first that is not
+    zero; 0 without one. fades: whether it counts as zero at the end, and has only decayed. within:
+    whether its phase goes on at the end, a corner of a law.
     """
 
     times: Array
     u: Array
-    moves: bool
+    named: bool
     comes: float
-    fades: bool
     goes: float
+    fades: bool
     within: bool
 
     @property
@@ -71,27 +70,28 @@ class _Piece:
         """Its last instant [s]."""
         return float(self.times[-1])
 
+    @property
+    def moves(self) -> bool:
+        """Whether its quantity leaves zero: a hop may be smaller than what counts."""
+        return self.named or self.goes != 0.0
+
 
 def _pieces(scene: Scene, record: Trajectory, event: Event) -> tuple[list[_Piece], float]:
-    """Each piece of u, which falls to zero at the event, and the size that counts as zero.
-
-    What ended a piece tells too: a hop may be smaller than what counts.
-    """
+    """Each piece of u, which falls to zero at the event, and the size that counts as zero."""
     names, found = _names(scene, event), list[_Piece]()
     u = event.falling(observe(scene, record, event.quantity))
     small = still(scene, record, event.quantity)
     parts = [*smooth_pieces(record, u, scene.corners())]
-    for k, (number, times, values) in enumerate(parts):
-        then = parts[k + 1][0] if k + 1 < len(parts) else len(record.ended)
-        ended = any(name in names for name in record.ended[number:then])
+    numbers = [*(number for number, *_ in parts[1:]), len(record.ended)]
+    for (number, times, values), then in zip(parts, numbers, strict=True):
+        named = any(name in names for name in record.ended[number:then])
         clear = np.flatnonzero(np.abs(values) > small)
         last = int(clear[-1] if len(clear) else np.argmax(np.abs(values)))
         ends = len(clear) > 0 and last < len(values) - 1
-        fades = not ended and ends and _decays(times[last:], values[last:])
-        comes = float(values[last]) if ended or (ends and not fades) else 0.0
+        fades = not named and ends and _decays(times[last:], values[last:])
+        comes = float(values[last]) if named or (ends and not fades) else 0.0
         goes = float(values[clear[0]]) if len(clear) else 0.0
-        moves = ended or len(clear) > 0
-        found.append(_Piece(times, values, moves, comes, fades, goes, number == then))
+        found.append(_Piece(times, values, named, comes, goes, fades, number == then))
     return found, small
 
 
@@ -108,10 +108,6 @@ _WORDS = {
     "force": ("slackens",),
 }
 """By a field, the mechanism's words for what happens where it falls to zero."""
-
-
-_BLOWS = ("lands", "tightens", "strikes")
-"""Those of them at which rates jump."""
 
 
 def _names(scene: Scene, event: Event) -> set[str]:
@@ -405,22 +401,11 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
 
 
 def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
-    """The first time [s] at which a blow that is such an event changes no rate by more than what
-    rounding does; None without one."""
-    record, named = reference.record, _names(case.scene, event)
-    blows = {name for name in named if name.endswith(_BLOWS)}
-    if record is None or record.phase is None or not blows:
+    """The first time [s] at which it ends a hop that is too small to be seen; None without one."""
+    if reference.record is None or not event.crosses:
         return None
-    frame = case.scene.frame
-    columns = [*frame.alike("m/s"), *frame.alike("rad/s")]
-    rates = np.hstack([states[:, columns] for states in record.states.values()])
-    large = float(np.max(np.abs(rates)))
-    for before, after in pairwise(lasting(record)):
-        numbers = slice(int(record.phase[before[0]]), int(record.phase[after[0]]))
-        jump = float(np.max(np.abs(rates[after[0]] - rates[before[-1]])))
-        if blows.intersection(record.ended[numbers]) and jump <= SOFT * large:
-            return float(record.times[before[-1]])
-    return None
+    pieces, _ = _pieces(case.scene, reference.record, event)
+    return next((piece.end for piece in pieces if piece.named and not piece.goes), None)
 
 
 def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
 from textmech.cases.scene.passages import passing
-from textmech.cases.trajectory import VX, Array, Trajectory, X
+from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.compare.events import rests as reading
 from textmech.reports.compare.events import times as event_times
 from textmech.reports.compare.events.rests import rests
@@ -322,18 +322,6 @@ def test_what_decays_never_falls_to_zero(share: float, monkeypatch: pytest.Monke
     assert len(falls(t, u, small=1e-9)) == 1
 
 
-def slack(t: Array, u: Array) -> Trajectory:
-    found = np.zeros((len(t), 6))
-    found[:, X] = u
-    return Trajectory(t, {"box": found}, {}, phase=np.where(t > 0.05, 1, 0))
-
-
-def test_an_engine_that_keeps_a_rope_taut_up_to_rounding_is_told_in_time() -> None:
-    record = slack(*taut(1e-17))
-    found = engine_events(SCENE, record, Event("box.x", "falls to zero"))
-    assert found == pytest.approx([0.05], abs=1e-12)
-
-
 def phased(*pieces: tuple[float, float, Callable[[Array], Array]]) -> Trajectory:
     """A reference's record: rows and phase numbers of pieces (from, to, speed)."""
     times = [np.linspace(a, b, 7) for a, b, _ in pieces]
@@ -365,11 +353,6 @@ def test_the_reference_passes_zero_within_a_phase_too() -> None:
     (top,) = reference_events(SCENE, record, Event("box.vx", "falls to zero"))
     assert top == pytest.approx(1 + np.pi / 2, abs=1e-8)  # by seven steps, a sixth of a second each
     assert len(reference_events(SCENE, record, Event("box.vx", "stays zero"))) == 0
-
-
-def test_what_comes_to_zero_from_below_does_not_fall_to_it() -> None:
-    record = phased((0.0, 1.0, lambda t: t - 1), (1.0, 2.0, lambda t: -t), (2.0, 3.0, lambda t: -t))
-    assert len(reference_events(SCENE, record, Event("box.vx", "falls to zero"))) == 0
 
 
 def test_an_engine_is_read_by_the_same_names() -> None:
