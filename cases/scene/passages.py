@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..trajectory import Array, Trajectory
+from . import Scene
+from .observe import observe
+from .quantity import table
 
 AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth order
 ROOT = 1e-15  # s: what the root-finder is asked for
@@ -15,6 +18,7 @@ MIRRORED = 0.5  # of a fold's size: so well a curve goes on to it; one with no f
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
 FINE = 1e-13  # of the time between two steps: so well a root is found where that is little
 FLAT = 1e-10  # of it: so well an extremum
+STILL = 1e-9  # of the largest value of its kind: what rounding leaves of a zero of the reference
 
 Curve = Callable[[float], float]
 """t → u."""
@@ -166,3 +170,19 @@ def _mirrored(times: Array, u: Array, i: int) -> float | None:
             xtol = _fine(float(times[last]), float(times[beyond]))
             turns.append((off, float(brentq(curve, times[last], times[beyond], xtol=xtol))))
     return min(turns)[1] if turns else None  # a curve with one row of the other side tells worse
+
+
+def still(scene: Scene, record: Trajectory, name: str) -> float:
+    """The bound below which values of a quantity of the reference are zero, in its unit."""
+    u = observe(scene, record, name)
+    return STILL * max(float(np.max(np.abs(u))), _peers(scene, record, name))
+
+
+def _peers(scene: Scene, record: Trajectory, name: str) -> float:
+    """The largest of all places, rates or forces of the scene: what trembles is small beside it."""
+    quantity = table(scene)[name]
+    columns = scene.frame.alike(quantity.unit)
+    peers = [states[:, columns] for states in record.states.values()]
+    if quantity.kind == "force":
+        peers += list(record.reactions.values())
+    return max((float(np.max(np.abs(x), initial=0.0)) for x in peers), default=0.0)

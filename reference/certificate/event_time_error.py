@@ -13,8 +13,7 @@ from numpy.linalg import LinAlgError
 from ...cases.fields.event import Event
 from ...cases.scene import Scene
 from ...cases.scene.observe import observe
-from ...cases.scene.passages import passing, pieces
-from ...cases.scene.still import still
+from ...cases.scene.passages import passing, pieces, still
 from ...cases.trajectory import Trajectory
 from ..integrators.dop853 import DOP853
 from ..integrators.march import EPS, sizes

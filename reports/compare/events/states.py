@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 from ....cases.case import Case
 from ....cases.mistake import Mistake
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import pieces, polynomial
+from ....cases.scene.passages import pieces, polynomial, still
 from ....cases.scene.quantity import SIDES, AtEvent, at_event
-from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
 from .times import faint, grazed, limit_of, never, reference_events
 

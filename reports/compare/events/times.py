@@ -16,10 +16,9 @@ from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import AROUND, passing
+from ....cases.scene.passages import AROUND, passing, still
 from ....cases.scene.passages import pieces as smooth_pieces
 from ....cases.scene.quantity import at_event, table
-from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
 from .rests import LOW, SHARES, STEPS, Rest, rests
 
