@@ -18,7 +18,7 @@ from ....cases.scene.observe import observe
 from ....cases.scene.passages import pieces, polynomial, still
 from ....cases.scene.quantity import SIDES, AtEvent, at_event
 from ....cases.trajectory import Array, Trajectory
-from .times import faint, grazed, limit_of, never, reference_events
+from .times import below_resolution, limit_of, reference_events, tangential, unreached
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
@@ -86,7 +86,9 @@ def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
     record = reference.record
     if record is None:
         return []
-    found = list(grazed(case, record)) or never(case, reference) or list(_jumps(case, record))
+    found = (
+        list(tangential(case, record)) or unreached(case, reference) or list(_jumps(case, record))
+    )
     return found or list(_uncounted(case, reference))
 
 
@@ -101,7 +103,7 @@ def _uncounted(case: Case, reference: Trajectory) -> Iterator[Mistake]:
                 f"happens without end before {limit:.4g} s, and the reference leaves out what "
                 "is too short to see"
             )
-        elif (t := faint(case, reference, case.events[event])) is not None:
+        elif (t := below_resolution(case, reference, case.events[event])) is not None:
             why = f"happens so softly at {t:.6g} s that rounding tells how often it does from then"
         else:
             continue

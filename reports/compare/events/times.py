@@ -30,7 +30,6 @@ SURE = 2  # times an engine's steps: what they tell of the reference no engine n
 FLAT = 8  # times what a line needs to zero: what comes there by its eighth power takes as long
 AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
-TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
 
 
@@ -150,18 +149,19 @@ class Known:
     jumps: tuple[float, ...] = ()
 
 
-def jumped(scene: Scene, record: Trajectory, event: Event, happened: Array) -> Array:
+def jumped(scene: Scene, record: Trajectory, event: Event) -> Array:
     """When [s] the event's quantity jumps down across its value, which is no such event.
 
     As a velocity does in an impact, or a force that is switched off: an engine takes a step or
     more for it, in which it passes the value.
     """
-    if not event.crosses:
-        return np.zeros(0)
     pieces, small = _pieces(scene, record, event)
-    times = [before.end for before, after in pairwise(pieces) if before.u[-1] > small >= after.u[0]]
-    near = TOUCHES * float(record.times[-1] - record.times[0])
-    return np.array([t for t in times if not np.any(np.abs(happened - t) <= near)], float)
+    times = [
+        before.end
+        for before, after in pairwise(pieces if event.crosses else ())
+        if before.u[-1] > small >= after.u[0] and not _happens(event, before, after)
+    ]
+    return np.array(times, float)
 
 
 def engine_events(
@@ -225,8 +225,8 @@ def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, ste
     2 % where none does. It is 0 where nothing rests, or none of them reads what also falls to zero:
     what only decays to zero does not fall to it.
     """
-    jumps = jumped(scene, record, event, happened)
-    known = Known(0.0, (*happened.tolist(),), (*jumps.tolist(),))
+    jumps = jumped(scene, record, event).tolist()
+    known = Known(0.0, (*happened.tolist(),), (*jumps,))
     if event.crosses and not _comes_to_rest(scene, record, event):
         return known
     times, u = _at_steps(scene, record, event, step)
@@ -260,11 +260,8 @@ def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tu
         # An event on a sample leaves rows that are an ulp apart: no curve goes through both.
         apart = np.append(True, np.diff(at) > CLOSE * np.max(np.diff(at)))
         at, values = at[apart], piece.u[apart]
-        if len(at) > 1:
-            odd = min(AROUND, len(at)) // 2 * 2 - 1
-            u[inside] = make_interp_spline(at, values, k=odd)(times[inside])
-        else:
-            u[inside] = values
+        odd = min(AROUND, len(at)) // 2 * 2 - 1
+        u[inside] = make_interp_spline(at, values, k=odd)(times[inside])
     return times, u
 
 
@@ -285,7 +282,7 @@ def falls(times: Array, u: Array, small: float = 0.0) -> Array:
     for i in np.flatnonzero(through | turned).tolist():
         zero = _of_curve(times, u, i)
         if zero is None and through[i]:
-            zero = _of_line(times, u, i)
+            zero = float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
         if zero is not None:
             found += [zero] if _off(u[last : i + 1], largest) else []
             last = i + 1
@@ -297,7 +294,7 @@ def _off(u: Array, largest: float) -> bool:
     return bool(np.any(u > LOW * largest)) or int(np.sum(u > SMALL * largest)) >= STEPS
 
 
-def surely(
+def certain_events(
     scene: Scene, record: Trajectory, event: Event, known: Known, step: float
 ) -> NDArray[np.int64]:
     """Which of the reference's events steps of this size [s] tell for sure.
@@ -311,7 +308,7 @@ def surely(
         return np.arange(0)
     times, u = _at_steps(scene, record, event, step * (SURE if event.crosses else 1))
     small = still(scene, record, event.quantity)
-    found = _read(times, u, event, Known(known.share), small)[: len(happened)]
+    found = _read(times, u, event, known, small)[: len(happened)]
     partners = nearest(found, happened)
     return partners[np.abs(found - happened[partners]) <= STEPS * step]
 
@@ -348,12 +345,7 @@ def _of_curve(times: Array, u: Array, i: int) -> float | None:
     return float(times[i]) + h * float(np.min(inside)) if len(inside) else None
 
 
-def _of_line(times: Array, u: Array, i: int) -> float:
-    """The zero [s] of the line through steps i and i + 1."""
-    return float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
-
-
-def never(case: Case, reference: Trajectory) -> list[Mistake]:
+def unreached(case: Case, reference: Trajectory) -> list[Mistake]:
     """A mistake for every event that the reference does not know.
 
     A contact that starts above the floor may be named and not land in time: that no engine lets it
@@ -365,7 +357,7 @@ def never(case: Case, reference: Trajectory) -> list[Mistake]:
         if len(reference_events(case.scene, reference.record, event)):
             continue
         places: list[tuple[str, ...]] = [("events", name)]
-        if _falls_later(case.scene, reference, event):
+        if _lands_later(case.scene, reference, event):
             bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
             places = [("allow", bound) for bound in bounds]
         what = f"never happens in {case.duration:g} s: nothing is compared"
@@ -399,7 +391,7 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
     return None
 
 
-def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
+def below_resolution(case: Case, reference: Trajectory, event: Event) -> float | None:
     """The first time [s] at which it ends a hop that is too small to be seen; None without one."""
     if reference.record is None or not event.crosses:
         return None
@@ -407,7 +399,7 @@ def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
     return next((piece.end for piece in pieces if piece.named and not piece.goes), None)
 
 
-def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
+def tangential(case: Case, record: Trajectory) -> Iterator[Mistake]:
     """A mistake for every event of which rounding says whether it happens."""
     for name, event in case.events.items():
         pieces, small = _pieces(case.scene, record, event)
@@ -435,7 +427,7 @@ def _touches(pieces: Sequence[_Piece], small: float) -> Iterator[float]:
             yield before.end
 
 
-def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
+def _lands_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
     part, _, field = event.quantity.rpartition(".")
     touches = part in (*scene.contacts, *scene.pairs)
     above = touches and field == "gap" and event.rule == "falls to zero"

@@ -14,7 +14,7 @@ from ....cases.case import Case, Event
 from ....cases.scene import Scene
 from ....cases.trajectory import Array, Trajectory
 from ....reference.solve import motion_of
-from .times import Known, nearest, reading, reference_events, surely
+from .times import Known, certain_events, nearest, reading, reference_events
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Timing:
             return np.arange(0)
         if (event, step) not in self._sure:
             known = self.known(step)[event]
-            self._sure[event, step] = surely(
+            self._sure[event, step] = certain_events(
                 self.scene, self.record, self.named[event], known, step
             )
         return self._sure[event, step]

@@ -26,11 +26,11 @@ from textmech.reports.compare.events import times as reading_events
 from textmech.reports.compare.events.rests import LOW
 from textmech.reports.compare.events.times import (
     Known,
+    certain_events,
     engine_events,
-    never,
     reading,
     reference_events,
-    surely,
+    unreached,
 )
 from textmech.reports.compare.events.timing import Timing
 from textmech.reports.compare.judge import compare as comparing
@@ -170,11 +170,11 @@ def test_orders_are_taken_away_from_events(trial: Make, stopping: Case) -> None:
 
 
 def test_an_event_that_never_happens_is_a_mistake_of_the_case(trial: Make, stopping: Case) -> None:
-    assert never(stopping, trial(case=stopping).reference) == []
+    assert unreached(stopping, trial(case=stopping).reference) == []
     other = replace(stopping, events={"slips": Event("ball.vx", "falls to zero")})
-    assert never(other, trial(case=stopping).reference) == []  # it also falls to zero
+    assert unreached(other, trial(case=stopping).reference) == []  # it also falls to zero
     other = replace(stopping, events={"slips": Event("ball.x", "leaves zero")})
-    (mistake,) = never(other, trial(case=stopping).reference)
+    (mistake,) = unreached(other, trial(case=stopping).reference)
     assert "never happens" in str(mistake)
 
 
@@ -304,7 +304,7 @@ def test_what_a_step_cannot_tell_is_paired_with_what_it_is() -> None:
     event, step = case.events["loose"], 2e-2
     happens = reference_events(case.scene, record, event)
     known = Known(LOW, (*happens,))
-    assert surely(case.scene, record, event, known, step).tolist() == [2]
+    assert certain_events(case.scene, record, event, known, step).tolist() == [2]
     motion = Trajectory(record.times, record.states, {}, record=record)
     engine = Pymunk("tuned")
     trial = Trial(case, motion, engine, planned(engine, case.scene, first(motion))[0])
@@ -430,7 +430,7 @@ allow: {{b.x: 1.0e-3}}
         event, times = case.events[name], np.array([happens])
         known = reading(case.scene, record, event, times, 1e-3)
         assert known.share == LOW
-        assert surely(case.scene, record, event, known, 1e-3).tolist() == [0]
+        assert certain_events(case.scene, record, event, known, 1e-3).tolist() == [0]
 
 
 def test_of_two_that_are_close_one_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -440,7 +440,7 @@ def test_of_two_that_are_close_one_is_told(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(reading_events, "_at_steps", lambda *given: (record.times, found))
     monkeypatch.setattr(reading_events, "_read", lambda *given: found)
     event = Event("box.vx", "leaves zero")
-    assert surely(scene, record, event, Known(LOW, happened), 1e-3).tolist() == [1]
+    assert certain_events(scene, record, event, Known(LOW, happened), 1e-3).tolist() == [1]
 
 
 def test_what_lands_in_the_last_step_has_landed() -> None:

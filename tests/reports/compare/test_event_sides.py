@@ -547,7 +547,7 @@ def test_blows_within_rounding_are_not_counted(monkeypatch: pytest.MonkeyPatch) 
             assert [counted(case, found, name) for name in ("pp", "qq")] == meetings(e)
         else:
             assert "happens so softly at 0.877" in wrong[0].what
-    monkeypatch.setattr(states, "faint", lambda *_: None)
+    monkeypatch.setattr(states, "below_resolution", lambda *_: None)
     assert mistaken(case, found.trajectory) == []
 
 

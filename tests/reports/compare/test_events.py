@@ -20,11 +20,11 @@ from textmech.reports.compare.events import times as event_times
 from textmech.reports.compare.events.rests import rests
 from textmech.reports.compare.events.times import (
     Known,
+    certain_events,
     engine_events,
     falls,
     jumped,
     reference_events,
-    surely,
 )
 
 # Event times of synthetic records whose events are known in advance.
@@ -266,7 +266,7 @@ def test_what_jumps_across_a_value_is_no_event_of_an_engine(steps: int, late: fl
     )  # fmt: skip
     happened = reference_events(SCENE, reference, event)
     assert len(happened) == 0
-    jumps = jumped(SCENE, reference, event, happened)
+    jumps = jumped(SCENE, reference, event)
     assert jumps == pytest.approx([ROOF])
     t, roof = grid(ENDS), ROOF + late
     velocity = np.where(t > roof, falls_back(t, roof), rises(t))
@@ -455,5 +455,7 @@ def test_events_that_are_too_near_for_a_step_may_be_missed() -> None:
     happened = reference_events(SCENE, record, event)
     assert len(happened) == 3
     steps = (1e-4, 1e-3, 5e-3, 0.2)
-    told = {h: len(surely(SCENE, record, event, Known(0.0, (*happened,)), h)) for h in steps}
+    told = {
+        h: len(certain_events(SCENE, record, event, Known(0.0, (*happened,)), h)) for h in steps
+    }
     assert told == {1e-4: 3, 1e-3: 3, 5e-3: 2, 0.2: 1}
