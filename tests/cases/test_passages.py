@@ -28,7 +28,7 @@ STILL = 1e-9
 
 
 def passages(times: Array, u: Array, corners: Sequence[float] = ()) -> list[float]:
-    """When [s] u falls through zero in the pieces of one phase, as far as it does in one of them."""
+    """When [s] u falls through zero within the pieces of one phase."""
     return [t for t, curve in crossings(times, u, corners) if curve]
 
 

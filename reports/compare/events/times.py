@@ -318,15 +318,10 @@ def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
 
     All of them together are as near as can be.
     """
-    total, costs = np.zeros(len(wanted) + 1), list[Array]()
-    for t in times.tolist():
-        costs.append(total[:-1] + np.abs(wanted - t))
-        total = np.append(np.inf, np.minimum.accumulate(costs[-1]))
-    found, end = list[int](), len(wanted)
-    for cost in reversed(costs):
-        end = int(np.argmin(cost[:end]))
-        found.append(end)
-    return np.array(found[::-1], dtype=np.int64)
+    from scipy.optimize import linear_sum_assignment
+
+    _, partners = linear_sum_assignment(np.abs(times[:, None] - wanted))
+    return np.sort(partners)
 
 
 def _of_curve(times: Array, u: Array, i: int) -> float | None:
