@@ -3,15 +3,14 @@
 Every rung of every engine asks the same, so that it is computed once for all of them.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ....cases.case import Case, Event
-from ....cases.scene import Scene
+from ....cases.case import Case
 from ....cases.trajectory import Array, Trajectory
 from ....reference.solve import motion_of
 from .times import Known, certain_events, nearest, reading, reference_events
@@ -24,24 +23,14 @@ class Timing:
     case: Case
     record: Trajectory | None
 
-    @property
-    def scene(self) -> Scene:
-        """The case's scene."""
-        return self.case.scene
-
-    @property
-    def named(self) -> Mapping[str, Event]:
-        """The case's events by name."""
-        return self.case.events
-
     @cached_property
     def events(self) -> dict[str, Array]:
         """The reference's times (K,) [s] of every event."""
         if self.record is None:
-            return {name: np.zeros(0) for name in self.named}
+            return {name: np.zeros(0) for name in self.case.events}
         return {
-            name: reference_events(self.scene, self.record, event)
-            for name, event in self.named.items()
+            name: reference_events(self.case.scene, self.record, event)
+            for name, event in self.case.events.items()
         }
 
     def surely(self, event: str, step: float) -> NDArray[np.int64]:
@@ -51,7 +40,7 @@ class Timing:
         if (event, step) not in self._sure:
             known = self.known(step)[event]
             self._sure[event, step] = certain_events(
-                self.scene, self.record, self.named[event], known, step
+                self.case.scene, self.record, self.case.events[event], known, step
             )
         return self._sure[event, step]
 
@@ -80,8 +69,8 @@ class Timing:
             return {}
         if step not in self._known:
             self._known[step] = {
-                name: reading(self.scene, self.record, event, self.events[name], step)
-                for name, event in self.named.items()
+                name: reading(self.case.scene, self.record, event, self.events[name], step)
+                for name, event in self.case.events.items()
             }
         return self._known[step]
 
