@@ -245,38 +245,6 @@ def test_the_force_of_a_one_sided_spring_has_its_side(
     assert happened(case, "s.force", other) == []
 
 
-TURNS = """\
-scene:
-  gravity: none
-  points: {O: [0, 0]}
-  bodies: {b: {rigid: {mass: 1, inertia: 2}}}
-  joints: {p: {pin: [ground.O, b.center], dry_friction: {kinetic: 0.5}}}
-initial: {p: {angle: 0, omega: -1}}
-events: {it: {p.slip: rises to zero}}
-allow: {b.angle: 1.0e-3}
-"""
-GLIDES = """\
-scene:
-  bodies: {b: {particle: {mass: 1}}}
-  contacts: {c: {between: [b, ground.floor], friction: 0.1}}
-initial: {b: {x: 0, y: 0, vx: -1, vy: 0}}
-events: {it: {c.slip: rises to zero}}
-allow: {b.x: 1.0e-3}
-"""
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("text", "name", "stops"),
-    [(TURNS, "p.slip", 4.0), (GLIDES, "c.slip", 1 / (0.1 * 9.80665))],
-)
-def test_pins_and_contacts_have_two_sides_too(text: str, name: str, stops: float) -> None:
-    case = parsed(text, tail="duration: 11.0\nsamples: 11\n")
-    assert observe(case.scene, solve(case).trajectory, name)[0] == -1.0
-    assert happened(case, name, RISES) == pytest.approx([stops], abs=1e-9)
-    assert happened(case, name, FALLS) == []
-
-
 # Rows at the last instant.
 
 

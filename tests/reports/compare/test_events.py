@@ -13,7 +13,6 @@ from scipy.optimize import brentq
 
 from textmech.cases.case import Event
 from textmech.cases.scene import Body, Scene
-from textmech.cases.scene.passages import passing
 from textmech.cases.trajectory import VX, Array, Trajectory
 from textmech.reports.compare.events import rests as reading
 from textmech.reports.compare.events import times as event_times
@@ -204,14 +203,6 @@ def test_falls_that_no_step_sees_at_zero(h: float) -> None:
     assert found == pytest.approx(impacts, abs=10 * h * h)
 
 
-def test_what_turns_above_zero_does_not_fall_to_it() -> None:
-    t = np.arange(0.0, 0.6, 1e-3)
-    for lowest in (0.5, 1e-3):
-        u = lowest + (t - 0.3) ** 2
-        assert len(falls(t, u)) == 0
-        assert list(passing(t, u, 1e-9)) == []
-
-
 NEAR, WIDE = 5e-8, 2e-3
 """m: so far above zero it turns, between two steps of either size; s: the larger of them."""
 
@@ -346,13 +337,6 @@ def test_the_reference_is_read_at_its_phases(rule: Any, times: list[float]) -> N
         (4.0, 5.0, np.zeros_like),
     )
     assert reference_events(SCENE, record, Event("box.vx", rule)) == pytest.approx(times)
-
-
-def test_the_reference_passes_zero_within_a_phase_too() -> None:
-    record = phased((0.0, 2.0, lambda t: 1.1 - np.sin(t)), (2.0, 3.0, lambda t: np.cos(t - 1)))
-    (top,) = reference_events(SCENE, record, Event("box.vx", "falls to zero"))
-    assert top == pytest.approx(1 + np.pi / 2, abs=1e-8)  # by seven steps, a sixth of a second each
-    assert len(reference_events(SCENE, record, Event("box.vx", "stays zero"))) == 0
 
 
 def test_an_engine_is_read_by_the_same_names() -> None:
