@@ -99,9 +99,9 @@ def _curve(times: Array, u: Array, i: int) -> Curve:
     return polynomial(times[first : first + AROUND], u[first : first + AROUND])
 
 
-def _fine(one: float, other: float) -> float:
+def _fine(begin: float, end: float) -> float:
     """How well [s] a root between two times is asked for."""
-    return min(ROOT, FINE * abs(other - one))
+    return min(ROOT, FINE * abs(end - begin))
 
 
 def polynomial(x: Array, y: Array) -> Curve:
@@ -128,9 +128,9 @@ def _hidden(times: Array, u: Array, still: float) -> Iterator[tuple[float, float
     from scipy.optimize import minimize_scalar
 
     signs = np.where(u > 0.0, 1.0, -1.0)
-    sides = np.pad(u, 1, constant_values=np.inf)
-    left, here, right = sides[:-2] * signs, u * signs, sides[2:] * signs
-    left[0], right[-1] = np.inf, np.inf
+    here = signs * u
+    left = np.append(np.inf, signs[1:] * u[:-1])
+    right = np.append(signs[:-1] * u[1:], np.inf)
     near = (here > 0.0) & (here <= np.minimum(left, right))
     near &= here <= np.maximum(left, right) - here
     for i in np.flatnonzero(near).tolist():

@@ -48,15 +48,15 @@ def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> 
     """
     u, steps = observe(case.scene, record, at.quantity), record.times
     near = BESIDE * float(steps[1] - steps[0])
-    found = []
+    values = []
     for t in times.tolist():
         if at.side == "after":
             read = min(t + case.tube, float(steps[-1]))
             rows = _behind(steps, u, np.flatnonzero(steps > t + near), t)
         else:
             read, rows = t, np.flatnonzero(steps < t - near)
-        found.append(_curve(steps[rows], u[rows], read, STEPS) if len(rows) else np.nan)
-    return np.array(found, float)
+        values.append(_curve(steps[rows], u[rows], read, STEPS) if len(rows) else np.nan)
+    return np.array(values, float)
 
 
 def _behind(steps: Array, u: Array, rows: Rows, t: float) -> Rows:

@@ -76,7 +76,7 @@ class _Piece:
 
 def _pieces(scene: Scene, record: Trajectory, event: Event) -> tuple[list[_Piece], float]:
     """Each piece of u, which falls to zero at the event, and the size that counts as zero."""
-    names, found = _names(scene, event), list[_Piece]()
+    names, pieces = _names(scene, event), list[_Piece]()
     u = event.falling(observe(scene, record, event.quantity))
     small = still(scene, record, event.quantity)
     parts = [*smooth_pieces(record, u, scene.corners())]
@@ -89,8 +89,8 @@ def _pieces(scene: Scene, record: Trajectory, event: Event) -> tuple[list[_Piece
         fades = not named and ends and _decays(times[last:], values[last:])
         comes = float(values[last]) if named or (ends and not fades) else 0.0
         goes = float(values[clear[0]]) if len(clear) else 0.0
-        found.append(_Piece(times, values, named, comes, goes, fades, number == then))
-    return found, small
+        pieces.append(_Piece(times, values, named, comes, goes, fades, number == then))
+    return pieces, small
 
 
 def _decays(times: Array, u: Array) -> bool:
@@ -114,17 +114,17 @@ def _names(scene: Scene, event: Event) -> set[str]:
     They say that it does, and not from which side: a slip, or a spring's force, has two.
     """
     part, _, field = event.quantity.rpartition(".")
-    found = set[str]()
+    names = set[str]()
     if event.value == 0.0:
-        found = {f"{part} {word}" for word in _WORDS.get(field, ())}
+        names = {f"{part} {word}" for word in _WORDS.get(field, ())}
     limit = scene.forces.get(part)
     if isinstance(limit, Limit):
         if field in limit.sides and event.value == 0.0:
-            found.add(f"{part}.{field} leaves")
+            names.add(f"{part}.{field} leaves")
         for side, (_, at) in limit.sides.items():
             if field == limit.measured and at == event.value:
-                found |= {f"{part} tightens", f"{part}.{side} strikes"}
-    return found
+                names |= {f"{part} tightens", f"{part}.{side} strikes"}
+    return names
 
 
 def _happens(event: Event, before: _Piece, after: _Piece) -> bool:
@@ -278,15 +278,15 @@ def falls(times: Array, u: Array, small: float = 0.0) -> Array:
     turned = (after <= small) | ((2 * now <= before) & (then > after))
     turned &= (now > small) & (after > 0)
     largest, last = float(np.max(np.abs(u))), 0
-    found: list[float] = []
+    zeros: list[float] = []
     for i in np.flatnonzero(through | turned).tolist():
         zero = _of_curve(times, u, i)
         if zero is None and through[i]:
             zero = float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
         if zero is not None:
-            found += [zero] if _off(u[last : i + 1], largest) else []
+            zeros += [zero] if _off(u[last : i + 1], largest) else []
             last = i + 1
-    return np.array(found, float)
+    return np.array(zeros, float)
 
 
 def _off(u: Array, largest: float) -> bool:
@@ -308,9 +308,9 @@ def certain_events(
         return np.arange(0)
     times, u = _at_steps(scene, record, event, step * (SURE if event.crosses else 1))
     small = still(scene, record, event.quantity)
-    found = _read(times, u, event, known, small)[: len(happened)]
-    partners = nearest(found, happened)
-    return partners[np.abs(found - happened[partners]) <= STEPS * step]
+    times_read = _read(times, u, event, known, small)[: len(happened)]
+    partners = nearest(times_read, happened)
+    return partners[np.abs(times_read - happened[partners]) <= STEPS * step]
 
 
 def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
@@ -346,7 +346,7 @@ def unreached(case: Case, reference: Trajectory) -> list[Mistake]:
     A contact that starts above the floor may be named and not land in time: that no engine lets it
     land earlier is a claim too, and only a bound on its time, or on what is then, compares nothing.
     """
-    found: list[Mistake] = []
+    mistakes: list[Mistake] = []
     for name, event in case.events.items():
         assert reference.record is not None  # of a case with events
         if len(reference_events(case.scene, reference.record, event)):
@@ -356,8 +356,8 @@ def unreached(case: Case, reference: Trajectory) -> list[Mistake]:
             bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
             places = [("allow", bound) for bound in bounds]
         what = f"never happens in {case.duration:g} s: nothing is compared"
-        found += [case.mistake(place, what) for place in places]
-    return found
+        mistakes += [case.mistake(place, what) for place in places]
+    return mistakes
 
 
 def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
@@ -372,7 +372,7 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
         return None
     u = event.falling(observe(case.scene, record, event.quantity))
     small = still(case.scene, record, event.quantity)
-    times, told = reference_events(case.scene, record, event), _names(case.scene, event)
+    times, named = reference_events(case.scene, record, event), _names(case.scene, event)
     for pile in reference.endless:
         beside = BESIDE * float(pile[-1] - pile[-2])
         mine = times[(times >= pile[0] - beside) & (times <= pile[-1] + beside)]
@@ -380,7 +380,7 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
             continue
         then = pile[pile >= mine[-1] - beside][0]
         after = u[(record.times > then + beside) & (record.times < pile[-1])]
-        unseen = not told and len(mine) > 1 and bool(np.all(np.abs(after) <= small))
+        unseen = not named and len(mine) > 1 and bool(np.all(np.abs(after) <= small))
         if unseen or mine[-1] > pile[-2] + beside:
             return float(pile[-1])
     return None
