@@ -26,7 +26,7 @@ CLOSE = 1e-6  # of the largest step of a march: rows as close are one
 WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
-SURE = 4  # times an engine's steps: what they tell of the reference no engine near it can miss
+SURE = 2  # times an engine's steps: what they tell of the reference no engine near it can miss
 FLAT = 8  # times what a line needs to zero: what comes there by its eighth power takes as long
 AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
@@ -299,9 +299,9 @@ def certain_events(
 ) -> NDArray[np.int64]:
     """Which of the reference's events steps of this size [s] tell for sure.
 
-    Those which are read from the reference itself at such steps, of what passes at four times as
-    large: a ball that comes to rest bounces ever lower, and what lasts a few steps may be seen in
-    an engine's motion or not.
+    Those which are read from the reference itself at such steps, of what passes at twice as large:
+    a ball that comes to rest bounces ever lower, and what lasts a few steps may be seen in an
+    engine's motion or not.
     """
     happened = np.array(known.happened or ())
     if not len(happened):
