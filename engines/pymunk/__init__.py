@@ -28,10 +28,9 @@ from .read.record import Record
 from .read.samples import sampled
 from .settings import options
 from .settings.knobs import STEPS, cost, knobs
-from .settings.recipe import recipe
-from .settings.settings import SHIPPED_STEP
+from .settings.options import SHIPPED_STEP, own
+from .settings.recipe import as_options, recipe
 from .settings.snippet import snippet
-from .settings.user_options import as_options, own
 from .stepping.run import placed, stepper
 from .stepping.scene import FAR, build
 

@@ -17,10 +17,8 @@ from ..model.damping import slowing
 from ..model.edge import alone
 from ..model.pair import closed_pairs
 from ..model.slot import oblique
-from ..settings.recipe import Recipe
-from ..settings.user_options import Own
+from ..settings.options import Numbers
 
-Numbers = Recipe | Own
 NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step
 SIGNED = ("fx", "fy", "torque", "drive", "friction")
 
