@@ -33,8 +33,8 @@ from .read.measure import measured
 from .settings import options, settings
 from .settings.groups import groups
 from .settings.knobs import STEPS, cost, knobs
+from .settings.options import as_options, unfit
 from .settings.snippet import option_notes, snippet
-from .settings.user_options import as_options, unfit
 
 
 @dataclass(frozen=True)

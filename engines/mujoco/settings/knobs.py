@@ -11,7 +11,7 @@ from ...knobs import Knob, Options, Value, short_value
 from ..model.contact import HARDEST
 from ..model.number_text import EACH
 from .groups import Group
-from .user_options import as_options
+from .options import as_options
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
@@ -100,7 +100,7 @@ def _softness(group: Group, tuned: Options) -> Knob:
         *(value(**{holds: hard}) for hard in hardness),
         *(value(**{pushes: spring, holds: hardness[0]}) for spring in springs[:2]),
     ]
-    numbers = {name: x for name, x in tuned.get(element, {}).items() if name in group.sizes}
+    numbers = {name: x for name, x in tuned.get(element, {}).items() if name in group.attributes}
     best = value(**numbers) if numbers else None
     if best and (own := _own(tuned, group)):
         best = Value(f"{best.words}, {' and '.join(own)} otherwise", {**best.options, EACH: own})
