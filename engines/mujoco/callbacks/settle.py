@@ -30,11 +30,13 @@ Mask = NDArray[np.bool_]
 
 UPRIGHT = 1e6  # times as ready to sink as to turn: a start leans by less than a millionth of that
 DEEP = 100.0  # h² · 1 m/s²: carries 10 m/s² in all recipes
+DEEPEST = 1e9  # the same: with numbers held to a larger step a floor is softer
 ROUNDS = 12  # of Newton's method at most: in contact all is nearly linear, and three do
-STRIDE = 1e-3  # of its differences: far above what MuJoCo's solver leaves over
-CONVERGED = 1e-8  # of the largest number: differences leave 1e-5 of that, and rounding 1e-10
+STRIDE = 1e-5  # of the deepest, for differences: far above what MuJoCo's solver leaves over
 KNOWN = 1e-7  # of the largest slope: below it is what differences leave of none
-HELD = 1e-4  # m/s²: what rounding leaves of an acceleration at the finest steps
+CONVERGED = 1e-8  # of the largest number: differences leave 1e-5 of that, and rounding 1e-10
+HELD = 1e-2  # m/s²: MuJoCo's solver leaves 1e-3 with its own tolerance, and rounding less
+NOTHING = 1e-9  # m/s²: a depth or creep that no place or velocity can hold
 STILL = 1e-9  # m/s: what slips less is meant to stick
 
 
@@ -62,10 +64,14 @@ def settle(
 
 def _carried(floor: "Floor") -> Array:
     """The floor's numbers: first depths alone, for friction holds by what they press."""
-    held = floor.is_depth.copy()
-    lying = _held(floor, held, np.where(held, DEEP, 0.0))
-    held[: floor.creeping] = floor.sticks & np.repeat(held[floor.creeping :], floor.tangents)
-    return _held(floor, held, lying)
+    deep, depths = DEEP, floor.is_depth
+    while np.max(floor.accelerations(deep * depths)[depths]) < 0 and deep < DEEPEST:
+        deep *= 10
+    lying = _held(floor, depths.copy(), deep * depths)
+    carries = lying[depths] > 0
+    return _held(
+        floor, np.append(floor.sticks & np.repeat(carries, floor.tangents), carries), lying
+    )
 
 
 def _held(floor: "Floor", held: Mask, guess: Array) -> Array:
@@ -78,7 +84,7 @@ def _held(floor: "Floor", held: Mask, guess: Array) -> Array:
         numbers = _newton(floor, held, np.where(held, guess, 0.0))
         rests = np.where(held, np.abs(floor.accelerations(numbers)), 0.0)
         if np.max(rests) <= HELD:
-            return numbers
+            return np.where(np.abs(numbers) > NOTHING, numbers, 0.0)
         slips = np.where(floor.is_depth, 0.0, rests)
         worst = int(np.argmax(slips if np.max(slips) > HELD else rests))
         held[worst] = False
@@ -90,10 +96,10 @@ def _held(floor: "Floor", held: Mask, guess: Array) -> Array:
 
 def _newton(floor: "Floor", held: Mask, numbers: Array) -> Array:
     """The numbers at which what is held does not accelerate, as near as they can take it away."""
-    nudges = STRIDE * np.eye(len(held))[held]
     for _ in range(ROUNDS):
-        now = floor.accelerations(numbers)[held]
-        slopes = [(floor.accelerations(numbers + nudge)[held] - now) / STRIDE for nudge in nudges]
+        now, size = floor.accelerations(numbers)[held], STRIDE * np.max(numbers[floor.is_depth])
+        nudged = [floor.accelerations(numbers + x)[held] for x in size * np.eye(len(held))[held]]
+        slopes = np.subtract(nudged, now) / size
         if not np.isfinite(slopes).all():
             break
         # Two corners of one block slip alike: of their creeps only a sum is known.
@@ -134,8 +140,8 @@ class Floor:
         shifts, space = _shifts(model), scene.frame is SPACE
         self._sinks, self._creeps = -self._ways(up, shifts), self._ways(along, shifts * space)
         rubs = [contact.friction > 0 for contact in (*contacts, *pairs)]
-        still = (np.abs(along @ self._qvel) <= STILL) | space
-        self.sticks = still & np.repeat(rubs, self.tangents) & (not model.opt.noslip_iterations)
+        still = (np.abs(along @ self._qvel) <= STILL) & (not model.opt.noslip_iterations)
+        self.sticks = (still | space) & np.repeat(rubs, self.tangents)
 
     def _ways(self, rows: Array, upright: list[int]) -> Array:
         """(nv, rows): the least motion that moves one point by 1 and keeps all loops closed.
