@@ -70,8 +70,11 @@ class Pymunk:
         ways = plans.ways(scene, start) if self._tuned else ("native",)
         numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
         shipped = self.setting == "shipped"
-        found = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
-        return [*without, *(planned(one, scene, start, shape) if shape else one for one in found)]
+        built = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
+        return [
+            *without,
+            *(planned(plan, scene, start, shape) if shape else plan for plan in built),
+        ]
 
     def pace(self, scene: Scene) -> float:
         """See `Paced`; measured on chains: sweeps grow by the square of the joints."""

@@ -56,8 +56,8 @@ def _ours(scene: Scene, realised: Realised) -> list[str]:
     if one_slide(scene) or one_touch(scene):
         when = "stage" if smooth_only(scene) and not met(scene) else "step"
         words.append(f"dry friction by our law before every {when}")
-    if told := ", ".join(force.name for force, _ in lacking(scene)):
-        words.append(f"{told} by our law at every stage, which the script has not")
+    if names := ", ".join(force.name for force, _ in lacking(scene)):
+        words.append(f"{names} by our law at every stage, which the script has not")
     return words
 
 
@@ -110,7 +110,7 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
     words += _ours(scene, plan.realised)
     if tuned and met(scene) and falls(scene, start):
         words.append("starts above the floor: contacts are tuned for impacts")
-    if tuned and (thrown := max((one.restitution for one in met(scene)), default=0.0)):
+    if tuned and (thrown := max((contact.restitution for contact in met(scene)), default=0.0)):
         lasts, kept = spread(thrown)
         words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
     words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in _slender(scene)]

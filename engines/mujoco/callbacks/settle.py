@@ -64,14 +64,14 @@ def settle(
 
 def _carried(floor: "Floor") -> Array:
     """The floor's numbers: first depths alone, for friction holds by what they press."""
-    deep, depths = DEEP, floor.is_depth
-    while np.max(floor.accelerations(deep * depths)[depths]) < 0 and deep < DEEPEST:
-        deep *= 10
-    lying = _held(floor, depths.copy(), deep * depths)
+    depths = floor.is_depth
+    deep = np.where(depths, DEEP, 0.0)
+    while np.max(floor.accelerations(deep)[depths]) < 0 and np.max(deep) < DEEPEST:
+        deep = 10 * deep
+    lying = _held(floor, depths.copy(), deep)
     carries = lying[depths] > 0
-    return _held(
-        floor, np.append(floor.sticks & np.repeat(carries, floor.tangents), carries), lying
-    )
+    sticks = floor.sticks & np.repeat(carries, floor.tangents)
+    return _held(floor, np.append(sticks, carries), lying)
 
 
 def _held(floor: "Floor", held: Mask, guess: Array) -> Array:
@@ -266,10 +266,10 @@ class OnBody:
         motion = self._motion([0.0])
         (x, y), (nx, ny) = self._pair.place(motion)[0], self._pair.normal_and_gap(motion)[0][0]
         place = np.array([x, y, 0.0])
-        each = np.zeros((2, 3, self._model.nv))
-        for found, body in zip(each, self._bodies.values(), strict=True):
-            mujoco.mj_jac(self._model, self._data, found, None, place, body)
-        moves = each[0] - each[1]
+        jacobians = np.zeros((2, 3, self._model.nv))
+        for jacobian, body in zip(jacobians, self._bodies.values(), strict=True):
+            mujoco.mj_jac(self._model, self._data, jacobian, None, place, body)
+        moves = jacobians[0] - jacobians[1]
         return np.array([ny * moves[0] - nx * moves[1], nx * moves[0] + ny * moves[1]])
 
     def acceleration(self) -> Array:

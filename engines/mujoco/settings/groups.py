@@ -124,8 +124,8 @@ def _contacts(scene: Scene) -> dict[str, Places]:
 
 def _stops(scene: Scene) -> dict[str, Places]:
     return {
-        one.name: lambda scene, model, one=one: model.joint(hinge(scene, one).name).id
-        for one in limited(scene, "stop")
+        stops.name: lambda scene, model, stops=stops: model.joint(hinge(scene, stops).name).id
+        for stops in limited(scene, "stop")
     }
 
 

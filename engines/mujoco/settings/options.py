@@ -168,7 +168,7 @@ def _written(options: Mapping[str, Any], groups: Sequence[Group]) -> Iterator[tu
             yield f"option.{name}", int(value) if name in _WHOLE else value
 
 
-def as_options(choices: Sequence[Choice], *, settled: bool) -> dict[str, Any]:
+def as_options(choices: Sequence[Choice], *, settled: bool = False) -> dict[str, Any]:
     """Choices in terms of h as own options; settled: started as the floor carries what touches."""
     options: dict[str, Any] = {}
     for choice in choices:

@@ -87,10 +87,10 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided, roped = any(scene.one_sided()), any(scene.limits())
     jumps = (rubs or met) and any(law.corners for law in scene.laws())
-    told = brakes or jumps or strides(scene) or sided or roped
+    whole_steps = brakes or jumps or strides(scene) or sided or roped
     pulled = any(scene.gravity) or len(scene.forces) > len(slowing(scene))
     slowed = bool(slowing(scene)) and (pulled or met)
-    return told or (native and (damped(scene) or met or slowed))
+    return whole_steps or (native and (damped(scene) or met or slowed))
 
 
 def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:

@@ -33,9 +33,9 @@ def knobs(scene: Scene, start: Start) -> list[Knob]:
         if name not in tuned:
             continue
         number = tuned[name]
-        said = "by the scene" if number == BY_THE_SCENE else short_value(number)
+        size = "by the scene" if number == BY_THE_SCENE else short_value(number)
         together = (name, "start_iterations") if name == "iterations" else (name,)
-        best = Value(words.format(said), {each: tuned[each] for each in together})
+        best = Value(words.format(size), {each: tuned[each] for each in together})
         tried: dict[str, list[Value]] = {
             "error_bias": [Value("error_bias 0", {name: 0.0})],
             "iterations": [*(Value(f"{n} iterations", {name: n}) for n in (30, 100)), best],

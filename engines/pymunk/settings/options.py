@@ -32,7 +32,7 @@ def _touches(scene: Scene) -> bool:
 
 
 def _has_tips(scene: Scene) -> bool:
-    return bool(scene.pairs) or any(is_tip(scene, one) for one in scene.contacts.values())
+    return bool(scene.pairs) or any(is_tip(scene, contact) for contact in scene.contacts.values())
 
 
 @dataclass(frozen=True)
