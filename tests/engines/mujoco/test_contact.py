@@ -92,6 +92,26 @@ def test_what_friction_holds_is_held_whatever_rounding_says(
     assert creep(1e-5) == 0.0
 
 
+def settled(name: str, step: float) -> Array:
+    """Depths and creeps by a plan whose numbers are held at 4 ms."""
+    scene, start = begun(name)
+    plan = planned(TUNED["mujoco"], scene, start).held_at(4e-3)
+    return np.array([*placed(scene, start, step, plan, settles=True)[2].values()])
+
+
+@pytest.mark.parametrize("name", ["stacked_blocks.thrown", "rimless_wheel", "tilting_disk.circle"])
+def test_numbers_that_are_held_settle_alike_at_any_step(name: str) -> None:
+    np.testing.assert_allclose(settled(name, 2.5e-4), settled(name, 4e-3), rtol=1e-2, atol=1e-6)
+
+
+@pytest.mark.mutant(
+    "a start whose first guess does not carry on numbers of another step"
+)
+def test_a_first_guess_that_does_not_carry_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settle, "DEEPEST", 0.0)
+    assert not settled("rimless_wheel", 2.5e-4).any()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("points", [2, 4, 6])
 def test_a_block_lands_flat_on_several_points_and_lies(points: int) -> None:
