@@ -9,7 +9,6 @@ import numpy as np
 from ....cases.scene.frame import SPACE, Frame
 from ....cases.trajectory import Array
 from . import poses
-from .pack import Packed
 from .sketch import Sketch
 
 LIMIT = "limit"  # what the motion of a model is held against, which is no reference
@@ -53,7 +52,7 @@ class Drawing:
         right: Mapping[str, Any],
         ghosts: Mapping[str, Mapping[str, Any] | None],
         curves: Mapping[str, Any],
-        trail: list[Packed] | None = None,
+        trail: list[list[float]] | None = None,
     ) -> Motion:
         """Returns all that the page draws of a motion.
 

@@ -21,8 +21,8 @@ from ...compare.judge.metric import sizes
 from ...compare.own_rows import ENGINE, NATIVE, Modelled
 from ...compare.own_steps import Setting, Stepped, Steps
 from . import poses
+from .digits import few_digits, few_digits_of_each
 from .drawing import LIMIT, Drawing, Motion, thinned
-from .pack import packed, packed_by_size
 
 FINE = 400  # states of a motion, about, of which as many are kept as are needed to draw it
 MOST = 4  # times as many poses as samples, of steps that are drawn
@@ -51,7 +51,7 @@ def _motion(ready: Opened, steps: Steps) -> Motion:
             ghosts[_way(each)] = _ghost(own, drawing, limit.times, each.setting, each.y, right)
     finer, y = own_drawing.between(own, limit.times, limit.y, math.ceil(FINE / len(limit.times)))
     closely = drawing.poses(finer, poses.moves(own_drawing.states(own, y)), poses.CLOSE)
-    return drawing.motion(LIMIT, closely.packed(), ghosts, _curves(ready, steps))
+    return drawing.motion(LIMIT, closely.rounded(), ghosts, _curves(ready, steps))
 
 
 def _way(each: Stepped) -> str:
@@ -79,8 +79,8 @@ def _ghost(
     if states is not None:
         shown = drawing.poses(each, poses.moves(own_drawing.states(own, states)), poses.GHOST)
         if len(shown.times) <= MOST * len(times):
-            return shown.packed()
-    return {**poses.Poses(times, poses.moves(samples)).packed(), "held": True}
+            return shown.rounded()
+    return {**poses.Poses(times, poses.moves(samples)).rounded(), "held": True}
 
 
 def _drawing(own: OwnModel, y: Array) -> Drawing:
@@ -146,14 +146,14 @@ def _curves(ready: Opened, steps: Steps) -> dict[str, Any]:
             for quantity, rows in stepped.items():
                 curve = rows[:, 0] if quantity in values else sizes(rows)
                 if np.isfinite(curve).all():
-                    off[quantity][_way(each)] = {"curve": packed_by_size(curve[kept])}
+                    off[quantity][_way(each)] = {"curve": few_digits_of_each(curve[kept])}
     nothing = np.zeros(len(limit.times))
     return {
-        "times": packed(limit.times[kept]),
+        "times": few_digits(limit.times[kept]),
         "until": float(f"{steps.until:.6g}") if steps.late else None,
         "quantities": {
             quantity.name: {
-                "reference": packed(values.get(quantity, nothing)[kept]),
+                "reference": few_digits(values.get(quantity, nothing)[kept]),
                 "off": off[quantity],
             }
             for quantity in bars

@@ -14,9 +14,9 @@ from ....reference.solve import motion_of
 from ...runs.suite import Report
 from ...runs.trials import Tried
 from . import poses
+from .digits import few_digits, few_digits_of_each
 from .drawing import Drawing, Motion, thinned
 from .model_motion import model_motion
-from .pack import Packed, packed, packed_by_size
 from .sketch import extent, reach, sketch
 
 MOST = 64  # times as many poses as samples at most are looked at for the reference to be drawn
@@ -51,7 +51,7 @@ def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
     moves = {**poses.moves(states), **poses.driven(case, times)}
     return drawing.motion(
         "reference",
-        drawing.poses(times, moves, poses.CLOSE).packed(),
+        drawing.poses(times, moves, poses.CLOSE).rounded(),
         {way(one): _ghost(one, reference.states, case, drawing) for one in ran},
         _curves(case, reference, ran),
         _trail(case, times, states),
@@ -72,7 +72,7 @@ def _closely(case: Case, reference: Trajectory, size: float) -> tuple[Array, Map
     return times, states
 
 
-def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[Packed] | None:
+def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[list[float]] | None:
     """Returns in space the way of the first place that is observed; None where there is none."""
     n, scene = case.scene.frame.dimension, case.scene
     observed = [name.rpartition(".")[0] for name in case.allow if name.endswith((".x", ".z"))]
@@ -86,7 +86,7 @@ def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[Packed]
     states = scene.bodies[body].point(moved[body], point or CENTER)
     fine = np.linspace(times[0], times[-1], TRAIL)
     way = poses.cubic(times, states[:, :n], states[:, n:], fine)  # lines would be a polygon
-    return [packed(column) for column in np.ascontiguousarray(way.T)]
+    return [few_digits(column) for column in way.T]
 
 
 def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, drawing: Drawing) -> Any:
@@ -101,8 +101,8 @@ def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, drawing: Draw
         return None
     times, moves = one.pair.sampled.times, poses.moves(own)
     if len(own) == len(reference) and poses.closer(case, times, own, drawing.size) > HELD:
-        return {**poses.Poses(times, moves).packed(), "held": True}
-    return drawing.poses(times, moves, poses.GHOST).packed()
+        return {**poses.Poses(times, moves).rounded(), "held": True}
+    return drawing.poses(times, moves, poses.GHOST).rounded()
 
 
 def _curves(case: Case, reference: Trajectory, ran: Sequence[Tried]) -> dict[str, Any]:
@@ -114,10 +114,10 @@ def _curves(case: Case, reference: Trajectory, ran: Sequence[Tried]) -> dict[str
         wanted = samples if samples.ndim == 1 else np.zeros(len(samples))
         off = {way(one): _off(one, name, samples) for one in ran if name in one.outcome.samples}
         found[name] = {
-            "reference": packed(wanted[kept]),
+            "reference": few_digits(wanted[kept]),
             "off": {name: curve for name, curve in off.items() if curve is not None},
         }
-    return {"times": packed(case.times[kept]), "quantities": found}
+    return {"times": few_digits(case.times[kept]), "quantities": found}
 
 
 def _off(one: Tried, name: str, reference: Array) -> Any:
@@ -129,8 +129,11 @@ def _off(one: Tried, name: str, reference: Array) -> Any:
     else:
         off = samples - (reference if wanted is None else wanted)
     kept = thinned(len(off))
-    curve = {"curve": packed_by_size(off[kept])}
+    curve = {"curve": few_digits_of_each(off[kept])}
     if wanted is not None:  # its own samples
         values = off if samples.ndim > 1 else samples
-        curve |= {"times": packed(one.pair.sampled.times[kept]), "values": packed(values[kept])}
+        curve |= {
+            "times": few_digits(one.pair.sampled.times[kept]),
+            "values": few_digits(values[kept]),
+        }
     return curve

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
@@ -26,11 +25,10 @@ from ...runs.suite import Report
 from ...tables import run_list, write
 from ...tables.ownership import unasked
 from ...tables.replace import replace
-from ...tables.row import FAILS, MUTANTS, Certificate
+from ...tables.row import FAILS, MUTANTS
 from ...tables.spoken import WORDS, spoken
 from . import beside
 from .advice import advice
-from .beside import records
 from .column import Column, columns
 from .folder import BESIDE, Folder, folder, of_cases
 from .heat import SHADES, Cell, cells
@@ -83,7 +81,6 @@ def page(
         stick_slip=stick_slip(told, motions),
         files=listed(told, shown, found, about),
         trust=trust(scenes),
-        mutants=mutants(folder.beside.get(MUTANTS)),
         style=_text(f"{name}.css" for name in STYLES),
         script=_text(f"{name}.js" for name in SCRIPTS),
         motions=embedded(motions),
@@ -160,33 +157,6 @@ def _line(
     }
 
 
-# The mutants that the project's own tests make on purpose, and which test sees each.
-
-
-COLUMNS = ("room", "planted", "seen_by")
-
-
-def mutants(frame: pd.DataFrame | None) -> dict[str, Any] | None:
-    """The mistakes of each room, by the test that sees them. None where there is no list."""
-    if frame is None:
-        return None
-    rows = sorted(records(frame, COLUMNS), key=lambda row: (row["room"], row["seen_by"]))
-    rooms = [_room(room, list(of)) for room, of in groupby(rows, lambda row: row["room"])]
-    return {
-        "count": len(rows),
-        "tests": sum(len(room["tests"]) for room in rooms),
-        "rooms": rooms,
-    }
-
-
-def _room(name: str, rows: list[dict[str, str]]) -> dict[str, Any]:
-    tests = [
-        {"seen_by": seen_by, "planted": [row["planted"] for row in of]}
-        for seen_by, of in groupby(rows, lambda row: row["seen_by"])
-    ]
-    return {"room": name, "count": len(rows), "tests": tests}
-
-
 # The chapter's pictures of dry friction, of the cases that are its Examples 2.3 and 2.4.
 
 
@@ -214,38 +184,17 @@ def stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dic
 # The results of the references' own checks, and how much of the chapter is executed.
 
 
-NAMED = 8  # cases of an item by name; of more the number tells it
-
-
-def trust(folder: Folder) -> dict[str, Any]:
-    """The checks by their kind, and the items of the chapter."""
-    items = [_item(row) for row in folder.coverage.to_dict("records")]
-    kinds: dict[str, list[Certificate]] = {}
-    for check in folder.certificates:
-        if not check.check.startswith(ERROR):  # what is known of one quantity stands in its case
-            kinds.setdefault(check.check, []).append(check)
+def trust(folder: Folder) -> dict[str, int]:
+    """Returns how many checks there are and fail, how many items of the chapter are executed."""
+    # What is known of one quantity stands in its case.
+    checks = [row for row in folder.certificates if not row.check.startswith(ERROR)]
     return {
-        "checks": sum(map(len, kinds.values())),
-        "failing": sum(row.verdict == FAILS for rows in kinds.values() for row in rows),
-        "kinds": [_kind(name, rows) for name, rows in sorted(kinds.items())],
-        "chapter": items,
-        "covered": sum(bool(item["cases"]) for item in items),
+        "checks": len(checks),
+        "failing": sum(row.verdict == FAILS for row in checks),
+        "items": len(folder.coverage),
+        "covered": int(folder.coverage["cases"].astype(bool).sum()),
+        "mutants": len(folder.beside.get(MUTANTS, ())),
     }
-
-
-def _kind(name: str, rows: list[Certificate]) -> dict[str, Any]:
-    def part(row: Certificate) -> float:
-        return row.difference / row.bound if row.bound else row.difference
-
-    worst = max(rows, key=part)
-    return {"check": name, "cases": len(rows), "part": f"{part(worst):.2g}", "worst": worst.case}
-
-
-def _item(row: Mapping[Any, Any]) -> dict[str, Any]:
-    names = str(row["cases"]).split()
-    told = ", ".join(names[:NAMED])
-    more = len(names) - NAMED
-    return {**row, "cases": f"{told} and {more} more" if more > 0 else told}
 
 
 # Where the page is written: beside its reports, all files of a run together.

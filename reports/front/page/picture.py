@@ -15,7 +15,6 @@ from ...tables.spoken import spoken
 from .column import Column, column, ordered
 from .drawing import LIMIT, Motion
 from .heat import short
-from .pack import unpacked, unpacked_by_size
 from .paint import INK, style
 from .poses import read
 
@@ -50,7 +49,7 @@ def picture(
             one.set_axis_off()
     else:
         unit = own[0].unit if own else ""
-        times = unpacked(motion["curves"]["times"])
+        times = np.array(motion["curves"]["times"])
         label = f"{quantity} [{unit}]"
         _tube(axes[0, 1], times, curves, shown, allowed, label, motion["against"])
         _error(axes[1, 0], times, curves, shown, allowed, own)
@@ -91,19 +90,19 @@ def _tube(
     label: str,
     against: str = "reference",
 ) -> None:
-    reference = unpacked(curves["reference"])
+    reference = np.array(curves["reference"])
     axes.fill_between(times, reference - allowed, reference + allowed, color=INK, alpha=0.12, lw=0)
     axes.plot(times, reference, color=INK, lw=2, label=against)
     low, high = np.min(reference) - allowed, np.max(reference) + allowed
     bottom, top, away = low - ROOM * (high - low), high + ROOM * (high - low), []
     for one, off in _off(curves, shown):
         if "values" in off:  # at its own samples
-            x, y = unpacked(off["times"]), unpacked(off["values"])
+            x, y = np.array(off["times"]), np.array(off["values"])
         else:
-            x, y = times, reference + unpacked_by_size(off["curve"])
+            x, y = times, reference + off["curve"]
         _curve(axes, x, y, one, shown)
         if np.min(y) < bottom or np.max(y) > top:
-            most = short(float(np.max(np.abs(unpacked_by_size(off["curve"])))))
+            most = short(float(np.max(np.abs(off["curve"]))))
             away.append(f"{one.title} leaves the picture: off by up to {most}")
     low, high = axes.get_ylim()
     axes.set_ylim(max(bottom, low), min(top, high))
@@ -120,8 +119,8 @@ def _error(
     rows: Sequence[Comparison],
 ) -> None:
     for one, off in _off(curves, shown):
-        own = unpacked(off["times"]) if "times" in off else times
-        parts = np.abs(unpacked_by_size(off["curve"])) / allowed
+        own = np.array(off.get("times", times))
+        parts = np.abs(off["curve"]) / allowed
         _curve(axes, own, np.maximum(parts, LEAST), one, shown)
     _bound(axes)
     told = [row for row in rows if row.when is not None and row.ratio]
@@ -196,7 +195,7 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
         _bodies(axes, motion, now, color=INK, alpha=0.2 + 0.8 * share, lw=1.6)
     _links(axes, motion, {part: rows[-1] for part, rows in frames.items()})
     if motion["trail"]:
-        trail = _seen(np.stack([unpacked(c) for c in motion["trail"]], axis=1))
+        trail = _seen(np.transpose(motion["trail"]))
         axes.plot(*trail.T, color=INK, lw=0.8, alpha=0.5)
     axes.set_aspect("equal", adjustable="datalim")
     limits = axes.dataLim.frozen()

@@ -6,7 +6,7 @@ poses and their rates, are off by 1/384 of the fourth power of the turn, in part
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +19,7 @@ from ....cases.scene.observe import motion_of
 from ....cases.scene.point import GROUND
 from ....cases.scene.rotation import product
 from ....cases.trajectory import Array, Trajectory
-from .pack import CURVE, POSE, Packed, packed, unpacked
+from .digits import POSE, few_digits
 
 CLOSE = 1 / 4000  # of what the motion reaches, which is drawn 400 pixels wide: a tenth of one
 GHOST = 1 / 1000  # what an engine's motion is drawn to: by what it is off is seen, and not measured
@@ -37,12 +37,12 @@ class Poses:
     times: Array
     moves: Moves
 
-    def packed(self) -> dict[str, Any]:
+    def rounded(self) -> dict[str, Any]:
         """Returns it for the page: times, and of each part its poses and their rates by column."""
         return {
-            "times": packed(self.times, POSE),
+            "times": few_digits(self.times, POSE),
             "poses": {
-                part: [_columns(pose, POSE), _columns(rates, CURVE)]
+                part: [_columns(pose, POSE), _columns(rates)]
                 for part, (pose, rates) in self.moves.items()
             },
         }
@@ -52,21 +52,17 @@ class Poses:
         return {part: cubic(self.times, *moved, times) for part, moved in self.moves.items()}
 
 
-def read(found: Mapping[str, Any]) -> Poses:
-    """The poses that were packed, to within half a level of each column."""
+def read(drawn: Mapping[str, Any]) -> Poses:
+    """Returns the poses of a page's motion, to their digits."""
     moves = {
-        part: (_rows(pose, POSE), _rows(rates, CURVE))
-        for part, (pose, rates) in found["poses"].items()
+        part: (np.transpose(pose), np.transpose(rates))
+        for part, (pose, rates) in drawn["poses"].items()
     }
-    return Poses(unpacked(found["times"], POSE), moves)
+    return Poses(np.array(drawn["times"]), moves)
 
 
-def _columns(rows: Array, width: int) -> list[Packed]:
-    return [packed(column, width) for column in np.ascontiguousarray(rows.T)]
-
-
-def _rows(columns: Sequence[Packed], width: int) -> Array:
-    return np.stack([unpacked(column, width) for column in columns], axis=1)
+def _columns(rows: Array, *digits: int) -> list[list[float]]:
+    return [few_digits(column, *digits) for column in rows.T]
 
 
 def cubic(times: Array, places: Array, rates: Array, at: Array) -> Array:

@@ -3,7 +3,7 @@ const CALM = matchMedia('(prefers-reduced-motion: reduce)');
 
 // wanted: the ghosts that are shown at all; by default each, those of an engine by itself at once.
 function animation(name, motion, wanted = null) {
-  const pose = poser(motion), times = unpackPose(motion.times);
+  const pose = poser(motion), times = motion.times;
   const last = times[times.length - 1], [slow, long] = [3, 12];
   const rate = last / Math.min(Math.max(last, slow), long); // s of the motion in one second
   const root = svg('svg', {class: motion.axes === 3 ? 'mechanism space' : 'mechanism', viewBox: `0 0 ${CANVAS.width} ${CANVAS.height}`, role: 'img', 'aria-label': `${name} in motion`});
@@ -11,7 +11,7 @@ function animation(name, motion, wanted = null) {
   const ghosts = Object.entries(motion.ghosts).filter(([key]) => !wanted || wanted.includes(key)).map(([key, ghost]) => ({
     ...COLUMN.get(key), ...bodies(motion, `ghost ${COLUMN.get(key).look}`), pose: poser(ghost), held: ghost.held,
   }));
-  const trail = motion.trail ? motion.trail.map(unpack) : null, trace = svg('polyline', {class: 'trace'});
+  const trail = motion.trail, trace = svg('polyline', {class: 'trace'});
   root.append(fixed.group, trace, ...ghosts.map((g) => g.group), own.group);
   let window = null, now = 0, playing = false, before = null;
   const aim = (turn) => {
@@ -81,11 +81,10 @@ const figure = (caption, ...parts) => html('figure', {}, html('figcaption', {}, 
 
 // A quantity in its tube, and beside it what is off, in parts of what is allowed.
 function curvesOf(motion, quantity, wanted = () => true) {
-  const times = unpack(motion.curves.times), {reference, off} = motion.curves.quantities[quantity];
-  const right = unpack(reference);
+  const times = motion.curves.times, {reference: right, off} = motion.curves.quantities[quantity];
   const engines = Object.entries(off).filter(([key]) => wanted(COLUMN.get(key))).map(([key, found]) => {
-    const error = unpackBySize(found.curve), own = found.times ? unpack(found.times) : times;
-    const values = found.values ? unpack(found.values) : error.map((e, k) => right[k] + e);
+    const error = found.curve, own = found.times ?? times;
+    const values = found.values ?? error.map((e, k) => right[k] + e);
     return {...COLUMN.get(key), x: own, error, y: values};
   });
   const place = (one) => COLUMNS.findIndex(({key}) => key === one.key);

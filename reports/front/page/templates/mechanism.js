@@ -4,15 +4,14 @@ const CANVAS = {width: 460, height: 300, pad: 22}, LOOKS = 60;
 // Poses of one motion by part, at any time: cubics through its samples with their rates. What is
 // held stays at a sample until the next, for nobody knows the way between them.
 function poser({times, poses, held = false}) {
-  const t = unpackPose(times);
-  const parts = Object.entries(poses).map(([name, [pose, rates]]) => [name, pose.map(unpackPose), rates.map(unpack)]);
+  const t = times, parts = Object.entries(poses);
   return (time) => {
     let [low, high] = [1, t.length - 1]; // the first sample that is not before it
     while (low < high) { const middle = (low + high) >> 1; if (t[middle] < time) low = middle + 1; else high = middle; }
     const k = low, h = t[k] - t[k - 1], s = h > 0 ? Math.min(Math.max((time - t[k - 1]) / h, 0), 1) : 1, r = 1 - s;
-    if (held) return new Map(parts.map(([name, pose]) => [name, pose.map((c) => c[s < 1 ? k - 1 : k])]));
+    if (held) return new Map(parts.map(([name, [pose]]) => [name, pose.map((c) => c[s < 1 ? k - 1 : k])]));
     const [a, b, u, v] = [(1 + 2 * s) * r * r, s * s * (3 - 2 * s), h * s * r * r, -h * s * s * r];
-    return new Map(parts.map(([name, pose, rates]) => [name, pose.map((c, i) => a * c[k - 1] + b * c[k] + u * rates[i][k - 1] + v * rates[i][k])]));
+    return new Map(parts.map(([name, [pose, rates]]) => [name, pose.map((c, i) => a * c[k - 1] + b * c[k] + u * rates[i][k - 1] + v * rates[i][k])]));
   };
 }
 

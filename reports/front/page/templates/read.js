@@ -1,7 +1,5 @@
 'use strict';
 // The data of the page, and what everything below is built with. Text is only ever set as text.
-const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_';
-const LEVEL = new Map([...LETTERS].map((letter, k) => [letter, k]));
 let MOTIONS, ROWS, COLUMNS, COLUMN;
 
 async function data(id) {
@@ -26,17 +24,6 @@ function columnOf(key, own) {
   return {key, engine, setting, realised, look: mine(engine, setting) ? `mine${place} mine ${way}` : `${whose} ${setting} ${way}`,
     title: `${engine} ${setting}` + (realised === 'native' ? '' : ` + ${realised === 'any way' ? 'our force law or loop' : spoken(realised)}`)};
 }
-
-function levels(letters, width) {
-  const found = new Float64Array(letters.length / width);
-  for (let k = 0; k < letters.length; k++) { const at = Math.floor(k / width); found[at] = 64 * found[at] + LEVEL.get(letters[k]); }
-  return found;
-}
-const unpacking = (width) => ([low, step, letters]) => levels(letters, width).map((k) => low + step * k);
-const [unpack, unpackPose] = [unpacking(2), unpacking(3)]; // letters of a number
-// Errors: each to half a percent of itself, the upper half of the levels below zero.
-const unpackBySize = ([largest, step, letters]) => levels(letters, 2).map((k) =>
-  (k % 2048 === 0 ? 0 : (k < 2048 ? 1 : -1) * largest * 10 ** (-(k % 2048 - 1) * step)));
 
 function made(element, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {

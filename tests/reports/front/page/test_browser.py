@@ -18,7 +18,6 @@ from textmech.cases.case import Case
 from textmech.cases.scene.point import GROUND
 from textmech.engines.own_model import opened as cases_of_models
 from textmech.engines.own_model.drawing import outlines
-from textmech.reports.front.page.pack import packed_by_size
 from textmech.reports.front.page.page import NAME, write_measured
 from textmech.reports.front.page.page import page as drawn_page
 from textmech.reports.runs import suite
@@ -172,13 +171,6 @@ def test_the_drawn_bar_is_where_the_reference_is(
     for ((x0, y0), (x1, y1)), state in zip(told, states, strict=True):
         assert np.hypot(x0, y0) == pytest.approx(0.0, abs=1e-3)
         assert np.arctan2(y1, x1) == pytest.approx(state[2], abs=2e-3)
-
-
-def test_the_script_reads_the_errors_that_were_packed(tab: Tab, page: str) -> None:
-    look(tab, page)
-    errors = np.array([0.0, 1e-7, -3.3, 2.0, -1e-3, 1e-12])
-    found = tab.ask(f"Array.from(unpackBySize({json.dumps(packed_by_size(errors))}))")
-    assert found == pytest.approx([*errors[:5], 0.0], rel=0.006)
 
 
 def test_models_open_by_their_rows_and_no_name_of_theirs_is_run(tab: Tab, of_models: str) -> None:
@@ -524,7 +516,7 @@ def joint_ends(case: Case) -> dict[str, list[Any]]:
 
 
 APART = """((name, joints, straight) => {
-    const motion = MOTIONS[name], pose = poser(motion), t = unpackPose(motion.times);
+    const motion = MOTIONS[name], pose = poser(motion), t = motion.times;
     const window = frame(motion, camera(motion, 35), pose, t), last = t[t.length - 1];
     const width = document.getElementById(name).querySelector('svg.mechanism')
         .getBoundingClientRect().width / CANVAS.width;

@@ -23,7 +23,6 @@ from textmech.reports.front.page.folder import of_cases
 from textmech.reports.front.page.model_motion import model_motion
 from textmech.reports.front.page.motion_frames import motion_frames
 from textmech.reports.front.page.notebook import drawn
-from textmech.reports.front.page.pack import unpacked, unpacked_by_size
 from textmech.reports.front.page.page import page
 from textmech.reports.front.page.picture import picture
 from textmech.reports.front.page.poses import read
@@ -151,9 +150,7 @@ def off(model: Modelled, module: Any = drawing) -> float:
     curves = module.model_motion(model)["curves"]["quantities"]
     worst = 0.0
     for row in model.comparisons:
-        curve = unpacked_by_size(
-            curves[row.quantity]["off"][f"mujoco.{row.setting}.native"]["curve"]
-        )
+        curve = curves[row.quantity]["off"][f"mujoco.{row.setting}.native"]["curve"]
         if row.error:
             worst = max(worst, abs(float(np.abs(curve).max()) / row.error - 1))
     return worst
@@ -169,9 +166,9 @@ def test_curves_are_as_far_off_as_their_rows_say(arms: SimpleNamespace) -> None:
 def test_a_hinge_has_its_angle_and_a_ball_none(arms: SimpleNamespace) -> None:
     model = arms.models[1]
     curves = arms.motions["constructor"]["curves"]["quantities"]
-    angle = unpacked(curves["__proto__.angle"]["reference"])
+    angle = curves["__proto__.angle"]["reference"]
     assert angle == pytest.approx(model.steps.limit.q[:, 1], abs=2e-4)
-    assert not unpacked(curves["joint 2.turn"]["reference"]).any()
+    assert not any(curves["joint 2.turn"]["reference"])
 
 
 def test_of_the_ground_only_what_is_near_is_drawn() -> None:

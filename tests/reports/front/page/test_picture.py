@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from textmech.cases.trajectory import Array
 from textmech.reports.front.page import paint, picture
 from textmech.reports.front.page.column import Column
-from textmech.reports.front.page.pack import packed, packed_by_size
 from textmech.reports.front.page.poses import Poses
 
 # The picture of one quantity on paper: its curves, its tube, and its ladder.
@@ -44,8 +43,8 @@ def test_what_leaves_the_tube_is_told_with_its_size() -> None:
     def told(module: Any = picture) -> str:
         axes, times = Figure().subplots(), np.array([0.0, 1.0])
         curves = {
-            "reference": packed(np.array([1.0, 2.0])),
-            "off": {KINDS[0].key: {"curve": packed_by_size(np.array([0.0, 50.0]))}},
+            "reference": [1.0, 2.0],
+            "off": {KINDS[0].key: {"curve": [0.0, 50.0]}},
         }
         module._tube(axes, times, curves, KINDS[:1], 0.25, "x [m]")
         assert axes.get_ylim()[1] < 5.0
@@ -78,8 +77,8 @@ def tube(module: Any = picture) -> tuple[list[float], list[float]]:
     """The engine's curve, and the lowest and the highest of what is allowed."""
     axes, times = Figure().subplots(), np.array([0.0, 1.0])
     curves = {
-        "reference": packed(np.array([1.0, 2.0])),
-        "off": {"mujoco.tuned.native": {"curve": packed_by_size(np.array([0.0, 0.5]))}},
+        "reference": [1.0, 2.0],
+        "off": {"mujoco.tuned.native": {"curve": [0.0, 0.5]}},
     }
     module._tube(axes, times, curves, [Column("mujoco", "tuned", "native")], 0.25, "x [m]")
     (area,) = axes.collections
@@ -94,8 +93,8 @@ def tube(module: Any = picture) -> tuple[list[float], list[float]]:
     [
         (
             "engines off the other way",
-            "+ unpacked_by_size",
-            "- unpacked_by_size",
+            "reference + off",
+            "reference - off",
         ),
         ("tube twice as wide", "reference + allowed, color", "reference + 2 * allowed, color"),
     ],
@@ -120,7 +119,7 @@ TUNED = Column("mujoco", "tuned", "native")
 def moved(**parts: Array) -> dict[str, Any]:
     """What is drawn of parts that go evenly from the first of their rows to the last."""
     moves = {name: (rows, np.gradient(rows, T, axis=0)) for name, rows in parts.items()}
-    return Poses(T, moves).packed()
+    return Poses(T, moves).rounded()
 
 
 MOTION: dict[str, Any] = {

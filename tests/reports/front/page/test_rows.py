@@ -160,29 +160,6 @@ def test_the_result_of_one_case_speaks_of_it() -> None:
     assert "keeps them as shipped" in told(lax)
 
 
-def kind(module: Any = trust) -> tuple[str, str]:
-    """Of two checks of one kind: the worst case, and how much of its bound is used."""
-    checks = [
-        replace(CHECK, case="much of a small bound", difference=1e-12, bound=2e-12),
-        replace(CHECK, case="little of a large bound", difference=1e-6, bound=1.0),
-    ]
-    (found,) = module.trust(replace(FOLDER, certificates=checks))["kinds"]
-    return found["worst"], found["part"]
-
-
-@pytest.mark.mutant("the worst check is the one with the {named}")
-@pytest.mark.parametrize(
-    ("named", "was", "now"),
-    [
-        ("largest difference", "row.difference / row.bound if", "row.difference if"),
-        ("smallest part of its bound", "max(rows, key=part)", "min(rows, key=part)"),
-    ],
-)  # fmt: skip
-def test_the_worst_check_uses_most_of_its_bound(named: str, was: str, now: str) -> None:
-    assert kind() == ("much of a small bound", "0.5")
-    assert kind(otherwise(trust, was, now))[0] == "little of a large bound"
-
-
 @pytest.mark.mutant("a case that deviates as declared counts as within")
 def test_a_case_is_within_where_all_of_it_agrees() -> None:
     kinds = ("agrees", "declared", "beyond", "refused")
