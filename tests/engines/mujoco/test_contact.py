@@ -104,9 +104,7 @@ def test_numbers_that_are_held_settle_alike_at_any_step(name: str) -> None:
     np.testing.assert_allclose(settled(name, 2.5e-4), settled(name, 4e-3), rtol=1e-2, atol=1e-6)
 
 
-@pytest.mark.mutant(
-    "a start whose first guess does not carry on numbers of another step"
-)
+@pytest.mark.mutant("a start whose first guess does not carry on numbers of another step")
 def test_a_first_guess_that_does_not_carry_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(settle, "DEEPEST", 0.0)
     assert not settled("rimless_wheel", 2.5e-4).any()
