@@ -113,8 +113,8 @@ class Mark:
 def members(engine: Engine) -> list[Mark]:
     """Marks of the parts of the protocol: whether each is there, and what is lost without it."""
     missing = [name for name in lacking(engine, Engine) if name != SCRIPT]
-    told = f"it has no {', '.join(missing)}" if missing else f"version {engine.version}"
-    marks = [Mark("protocol", "", "wrong" if missing else "works", told)]
+    text = f"it has no {', '.join(missing)}" if missing else f"version {engine.version}"
+    marks = [Mark("protocol", "", "wrong" if missing else "works", text)]
     if not hasattr(engine, SCRIPT):
         marks.append(Mark(SCRIPT, "", "not there", "`textmech show` has nothing to show"))
     for protocol, lost in LOST.items():
@@ -193,12 +193,12 @@ def _motion(attempt: Attempt) -> Mark:
     trial = Trial(case, reference, engine, plan)
     if wrong := _numbers(attempt, trial):
         return wrong
-    found = _run(attempt, trial, attempt.step)
-    shares = found.off() | found.forces_off()
+    compared = _run(attempt, trial, attempt.step)
+    shares = compared.off() | compared.forces_off()
     off = max(shares.values())
     how = "" if plan.realised == "native" else f" by its {plan.realised}"
     if off <= ROUGH:
-        return attempt.mark("works", f"{_percent(off)} off{how}", off=off, likely=shifted(found))
+        return attempt.mark("works", f"{_percent(off)} off{how}", off=off, likely=shifted(compared))
     finer = _run(attempt, trial, attempt.step / FINER)
     less = max((finer.off() | finer.forces_off()).values())
     if less <= ROUGH:
@@ -206,8 +206,8 @@ def _motion(attempt: Attempt) -> Mark:
             f"{_percent(off)} off at {attempt.step:g} s, {_percent(less)} at a quarter of that{how}"
         )
         return attempt.mark("works", what, off=off)
-    told = ", ".join(f"{name} {_percent(x)}" for name, x in _largest(shares) if x > ROUGH)
-    return attempt.mark("wrong", f"off: {told}{how}", off=off, likely=explained(found))
+    largest = ", ".join(f"{name} {_percent(x)}" for name, x in _largest(shares) if x > ROUGH)
+    return attempt.mark("wrong", f"off: {largest}{how}", off=off, likely=explained(compared))
 
 
 def _percent(share: float) -> str:
@@ -222,43 +222,43 @@ def _not_pickled(plan: Plan) -> str:
     try:
         pickle.loads(pickle.dumps(plan))
     except Exception as error:
-        told = "its functions are functions with a name, or `functools.partial` of them"
-        return f"its plan cannot cross into another process ({why(error)}): {told}"
+        rule = "its functions are functions with a name, or `functools.partial` of them"
+        return f"its plan cannot cross into another process ({why(error)}): {rule}"
     return ""
 
 
 def _numbers(attempt: Attempt, trial: Trial) -> Mark | None:
     """Masses and so on, before any step, where one is wrong."""
-    wanted, found, off = audited(trial)
+    wanted, read, off = audited(trial)
     wrong = sorted((name for name in off if off[name] > EQUAL), key=lambda name: -off[name])
     if not wrong:
         return None
-    told = [f"{name} is {found[name]:.6g}, the case says {wanted[name]:.6g}" for name in wrong[:3]]
-    likely = [factor(name, found[name], wanted[name], trial.case.scene) for name in wrong[:3]]
+    lines = [f"{name} is {read[name]:.6g}, the case says {wanted[name]:.6g}" for name in wrong[:3]]
+    likely = [factor(name, read[name], wanted[name], trial.case.scene) for name in wrong[:3]]
     named = [f"{name}: {x}" for name, x in zip(wrong, likely, strict=False) if x]
-    return attempt.mark("wrong", f"measure: {'; '.join(told)}", likely=tuple(named))
+    return attempt.mark("wrong", f"measure: {'; '.join(lines)}", likely=tuple(named))
 
 
 def _run(attempt: Attempt, trial: Trial, step: float) -> Compared:
     """The run beside the reference. Raises BadAnswer and Diverged."""
     case, plan = trial.case, trial.plan
-    told = tuple(r for r in attempt.grade.reactions if r not in plan.withheld)
-    wanted = tuple(r for r in wanted_reactions(case.scene, told) if r not in plan.withheld)
+    names = tuple(r for r in attempt.grade.reactions if r not in plan.withheld)
+    wanted = tuple(r for r in wanted_reactions(case.scene, names) if r not in plan.withheld)
     run = attempt.engine.run(
         case.scene, trial.start, case.times, step, plan, reactions=wanted, record=True
     )
-    found = moved(run, case.scene, case.times)
-    for name, rows in found.states.items():
+    motion = moved(run, case.scene, case.times)
+    for name, rows in motion.states.items():
         if not np.all(np.isfinite(rows)):
             raise BadAnswer(f"states of {name} are not finite: a motion that diverges is Diverged")
-    if lost := [name for name in told if name not in found.reactions]:
+    if lost := [name for name in names if name not in motion.reactions]:
         raise BadAnswer(f"{', '.join(lost)} is asked for, is not withheld, and is not given")
-    if found.record is not None and len(found.record.times) < round(case.times[-1] / step):
-        raise BadAnswer(f"the record has {len(found.record.times)} rows: it holds every step")
-    reactions = {name: found.reactions[name] for name in told}
+    if motion.record is not None and len(motion.record.times) < round(case.times[-1] / step):
+        raise BadAnswer(f"the record has {len(motion.record.times)} rows: it holds every step")
+    reactions = {name: motion.reactions[name] for name in names}
     keep = trial.away(AWAY * step)
     keep = keep if np.any(keep) else np.full_like(keep, True)
-    return Compared(case, step, trial.reference, found.states, reactions, keep)
+    return Compared(case, step, trial.reference, motion.states, reactions, keep)
 
 
 def _states(attempt: Attempt) -> Mark:
@@ -269,13 +269,13 @@ def _states(attempt: Attempt) -> Mark:
     if isinstance(way, Refusal):
         return attempt.mark("refused", way.because)
     trial = Trial(case, reference, engine, way)
-    found = climbed(states.rung(trial))
-    outcome = answered(trial, found)
+    climb = climbed(states.rung(trial))
+    outcome = answered(trial, climb)
     off = [r for r in outcome.rows if r.verdict not in (REFUSED, DEVIATES)]
     wrong = [row for row in off if row.ratio is None or not row.ratio <= 1]
     if not wrong:
         deviates = [row.because for row in outcome.rows if row.verdict == DEVIATES]
-        told = f"{len(off) - 1} quantities"  # beside the audit
-        return attempt.mark("works", "; but ".join([told, *deviates]))
-    told = [f"{row.quantity} {row.because or f'×{row.ratio:.2g} its tolerance'}" for row in wrong]
-    return attempt.mark("wrong", "; ".join(told[:3]))
+        words = f"{len(off) - 1} quantities"  # beside the audit
+        return attempt.mark("works", "; but ".join([words, *deviates]))
+    words = [f"{row.quantity} {row.because or f'×{row.ratio:.2g} its tolerance'}" for row in wrong]
+    return attempt.mark("wrong", "; ".join(words[:3]))

@@ -68,23 +68,23 @@ class Compared:
         keep = self.keep & (np.arange(len(self.keep)) > 0)
         shares = Shares()
         for part, names in parts.items():
-            found = np.stack([sign * self.reactions[name] for name in names], axis=1)[keep]
+            forces = np.stack([sign * self.reactions[name] for name in names], axis=1)[keep]
             wanted = [self.reference.reactions[name] for name in names]
             rows = np.stack(wanted, axis=1)[keep]
-            shares[f"forces of {part}"] = _share(found, rows, max(_far(rows), STILL))
+            shares[f"forces of {part}"] = _share(forces, rows, max(_far(rows), STILL))
         return shares
 
 
 def explained(compared: Compared) -> tuple[str, ...]:
     """Returns the mistakes that explain a wrong motion, the likeliest first; none if none does."""
     frame = compared.case.scene.frame
-    found = {
+    errors = {
         what: _worst(compared.off({name: undo(rows) for name, rows in compared.states.items()}))
         for what, undo in (IN_SPACE if frame is SPACE else IN_THE_PLANE).items()
     }
     now, opposite = _worst(compared.forces_off()), _worst(compared.forces_off(-1.0))
     signs = now > ROUGH and opposite <= ROUGH / 2  # of which the motion says nothing
-    return _cured(found, _worst(compared.off())) + (FORCES,) * signs
+    return _cures(errors, _worst(compared.off())) + (FORCES,) * signs
 
 
 def shifted(compared: Compared) -> tuple[str, ...]:
@@ -92,17 +92,17 @@ def shifted(compared: Compared) -> tuple[str, ...]:
     worst = _worst(compared.off())
     if not worst > SHIFTS:
         return ()
-    return _cured({what: _worst(compared.off(wanted=w)) for what, w in _late(compared)}, worst)
+    return _cures({what: _worst(compared.off(wanted=w)) for what, w in _late(compared)}, worst)
 
 
-def factor(name: str, found: float, wanted: float, scene: Scene) -> str:
+def factor(name: str, read: float, wanted: float, scene: Scene) -> str:
     """Returns how a number is related to the wanted one; empty where it is nothing simple."""
     body = scene.bodies.get(name.partition(".")[0])
     if body is not None and name.endswith(".inertia"):
         for point in body.points:
-            if any(body.points[point]) and _equal(found, body.about(point)):
+            if any(body.points[point]) and _equal(read, body.about(point)):
                 return f"it is about {body.name}.{point}, not about the centre of mass"
-    return next((what for x, what in FACTORS.items() if wanted and _equal(found, x * wanted)), "")
+    return next((what for x, what in FACTORS.items() if wanted and _equal(read, x * wanted)), "")
 
 
 FACTORS = {
@@ -122,12 +122,12 @@ def _equal(one: float, other: float) -> bool:
     return bool(abs(one - other) <= 1e-9 * max(abs(one), abs(other)))
 
 
-def _cured(found: Mapping[str, float], worst: float) -> tuple[str, ...]:
+def _cures(errors: Mapping[str, float], worst: float) -> tuple[str, ...]:
     """Mistakes that leave little error, the least first; one that leaves far more is left out."""
-    kept = {what: left for what, left in found.items() if left <= min(ROUGH / 2, worst / CURES)}
+    kept = {what: error for what, error in errors.items() if error <= min(ROUGH / 2, worst / CURES)}
     least = min(kept.values(), default=0.0)
-    told = sorted(kept, key=kept.__getitem__)
-    return tuple(what for what in told if kept[what] <= CURES * max(least, SHIFTS))
+    mistakes = sorted(kept, key=kept.__getitem__)
+    return tuple(what for what in mistakes if kept[what] <= CURES * max(least, SHIFTS))
 
 
 def _worst(shares: Shares) -> float:
@@ -138,9 +138,9 @@ def _far(rows: Array) -> float:
     return float(np.max(np.linalg.norm(rows, axis=1)))
 
 
-def _share(found: Array, wanted: Array | float, size: float) -> float:
+def _share(values: Array, wanted: Array | float, size: float) -> float:
     """The rms of what is off, over a size."""
-    rms = float(np.sqrt(np.mean(np.sum((found - wanted) ** 2, axis=1))))
+    rms = float(np.sqrt(np.mean(np.sum((values - wanted) ** 2, axis=1))))
     return rms / size if np.isfinite(rms) else np.inf
 
 

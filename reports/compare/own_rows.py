@@ -83,19 +83,19 @@ def modelled(
     parts.append(motion(own, result.limit))
     certificates = [*_certificates(case, parts)]
     if result.known <= KNOWN * min(ready.bars.values()):
-        certificates.append(_known(case, result))
+        certificates.append(_limit_certificate(case, result))
     own_errors = result.settings[0].errors
     off = any(e.off is None or e.off.max() > ready.bars[q] for q, e in own_errors.items())
     shown = seen(ready, result.limit, result.until, off=off)
-    each = [(stepped, q, error) for stepped in result.settings for q, error in
+    judged = [(stepped, q, error) for stepped in result.settings for q, error in
             stepped.errors.items()]  # fmt: skip
     return Modelled(
         case, str(own), own.started, result, parts, "",
-        [_row(case, own, result, shown, *one) for one in each],
-        [row for one in each for row in _rungs(case, *one)],
-        [row for one in each for row in _step_errors(case, *one)],
+        [_row(case, own, result, shown, *triple) for triple in judged],
+        [row for triple in judged for row in _rungs(case, *triple)],
+        [row for triple in judged for row in _step_errors(case, *triple)],
         certificates,
-        {each.setting.name: integrator_of(own, each.setting) for each in result.settings},
+        {stepped.setting.name: integrator_of(own, stepped.setting) for stepped in result.settings},
         coordinates(own.model),
         shown,
     )  # fmt: skip
@@ -196,12 +196,12 @@ def _refused(case: ModelCase, q: Quantity, bar: float, because: str) -> Comparis
 
 
 def _rungs(case: ModelCase, stepped: Stepped, q: Quantity, error: Error) -> Iterator[Rungs]:
-    if (found := error.ladder) is None:
+    if (ladder := error.ladder) is None:
         return
     yield Rungs(
         case.name, ENGINE, VERSION, stepped.setting.name, NATIVE, HELD, q.name, q.unit,
-        found.order, found.order_low, found.order_high, None, None, found.usable_step,
-        found.verdict,
+        ladder.order, ladder.order_low, ladder.order_high, None, None, ladder.usable_step,
+        ladder.verdict,
     )  # fmt: skip
 
 
@@ -224,7 +224,7 @@ def _certificates(case: ModelCase, parts: Sequence[Part]) -> Iterator[Certificat
                               None, "", verdict)  # fmt: skip
 
 
-def _known(case: ModelCase, result: Steps) -> Certificate:
+def _limit_certificate(case: ModelCase, result: Steps) -> Certificate:
     """The row of the limit's own error."""
     bound = KNOWN * min(result.bars.values())
     error = result.known

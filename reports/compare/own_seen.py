@@ -56,7 +56,7 @@ def seen(opened: Opened, exact: Limit, until: float, *, off: bool = True) -> See
     words = {
         k: _words(opened, exact, until, k, shown, short) for k in sorted({*short, *shown.shakes})
     }
-    return Seen({k: word for k, word in words.items() if word}, [*_beside(shown, off=off)])
+    return Seen({k: word for k, word in words.items() if word}, [*_notes(shown, off=off)])
 
 
 def _words(
@@ -81,7 +81,7 @@ def _shakes(exact: Limit, column: int, shake: Shake) -> bool:
     return np.abs(exact.y[inside, column]).max(initial=0.0) >= ARRIVES * shake.rate
 
 
-def _beside(shown: Signs, *, off: bool) -> Iterator[str]:
+def _notes(shown: Signs, *, off: bool) -> Iterator[str]:
     most = sorted(shown.at_limit.items(), key=lambda each: -each[1])
     if most:
         each = ", ".join(f"{name} in {share:.0%}" for name, share in most[:FEW])

@@ -98,7 +98,7 @@ class Steps:
     @property
     def known(self) -> float:
         """To what the limit is known [rad, m] as far as it is judged."""
-        return _known(self.limit, self.until)
+        return _limit_error(self.limit, self.until)
 
     @property
     def times(self) -> Array:
@@ -165,7 +165,7 @@ def steps(
     return Steps(exact, until, rows, note, bars, late)
 
 
-def _known(exact: Limit, until: float) -> float:
+def _limit_error(exact: Limit, until: float) -> float:
     return float(exact.errors[np.searchsorted(exact.times, until, side="right") - 1])
 
 
@@ -224,7 +224,7 @@ def _error(
     until: float,
     bars: Mapping[Quantity, float],
 ) -> Error:
-    judged, known = exact.times <= until, _known(exact, until)
+    judged, known = exact.times <= until, _limit_error(exact, until)
     ladder = {h: by_quantity[quantity][judged] for h, by_quantity in off.items()}
     at_own = ladder.get(setting.step)
     over_time = None if at_own is None else np.asarray(sizes(at_own))
@@ -238,9 +238,9 @@ def _error(
     if not clear:
         return Error(over_time, sure)
     zero = np.zeros_like(next(iter(clear.values())))
-    found = study(clear, zero, exponents=(), allow=bar, floor=floor)
-    return Error(over_time, Convergence(found.verdict, largest, sure.usable_step, found.order,
-                                        found.order_low, found.order_high))  # fmt: skip
+    fit = study(clear, zero, exponents=(), allow=bar, floor=floor)
+    return Error(over_time, Convergence(fit.verdict, largest, sure.usable_step, fit.order,
+                                        fit.order_low, fit.order_high))  # fmt: skip
 
 
 def _rungs(own: OwnModel) -> tuple[float, ...]:

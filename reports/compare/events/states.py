@@ -86,10 +86,10 @@ def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
     record = reference.record
     if record is None:
         return []
-    found = (
+    mistakes = (
         list(tangential(case, record)) or unreached(case, reference) or list(_jumps(case, record))
     )
-    return found or list(_uncounted(case, reference))
+    return mistakes or list(_uncounted(case, reference))
 
 
 def _uncounted(case: Case, reference: Trajectory) -> Iterator[Mistake]:

@@ -6,35 +6,35 @@ from .convergence import FALLEN, Convergence
 STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no model
 
 
-def cause(found: Convergence, finer: str = "", simplified: str = "", unit: str = "") -> str:
+def cause(convergence: Convergence, finer: str = "", simplified: str = "", unit: str = "") -> str:
     """In a few words; finer: why a step below the judged one gave nothing.
 
     simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
     unit: the quantity's.
     """
-    step_alone = found.verdict in STEPS and not _beside(found) and not finer
+    step_alone = convergence.verdict in STEPS and not _stays_beside_event(convergence) and not finer
     left_out = "" if step_alone else simplified
-    return "; ".join(part for part in (_told(found, finer, unit), left_out) if part)
+    return "; ".join(part for part in (_reason(convergence, finer, unit), left_out) if part)
 
 
-def _beside(found: Convergence) -> bool:
+def _stays_beside_event(convergence: Convergence) -> bool:
     """Whether no step changes what is beside an event, though elsewhere errors fall with it."""
-    sizes = found.errors.values()
+    sizes = convergence.errors.values()
     stays = max(sizes) < FALLEN * min(sizes)
-    return found.verdict == of.TEXTBOOK and found.usable_step is None and stays
+    return convergence.verdict == of.TEXTBOOK and convergence.usable_step is None and stays
 
 
-def _told(found: Convergence, finer: str, unit: str) -> str:
+def _reason(convergence: Convergence, finer: str, unit: str) -> str:
     if finer:
         return f"a smaller step diverges ({finer}): neither step nor model can be named"
-    usable = found.usable_step
+    usable = convergence.usable_step
     enough = f"within from h = {usable:.3g} s on" if usable else "not within at any step tried"
-    order = "" if found.order is None else f" with order {found.order:.1f}"
-    limit = f"{found.limit or 0.0:.3g} {unit}".rstrip()
-    sizes = found.errors.values()
-    finest = f"no step down to h = {min(found.errors):.3g} s helps"
+    order = "" if convergence.order is None else f" with order {convergence.order:.1f}"
+    limit = f"{convergence.limit or 0.0:.3g} {unit}".rstrip()
+    sizes = convergence.errors.values()
+    finest = f"no step down to h = {min(convergence.errors):.3g} s helps"
     every = f"{finest}: {min(sizes):.3g} to {max(sizes):.3g} at every step tried"
-    if _beside(found):
+    if _stays_beside_event(convergence):
         return f"beside an event {every}; elsewhere the error falls{order}"
     return {
         of.EXACT: f"the step: {enough}" if usable else "rounding",
@@ -45,4 +45,4 @@ def _told(found: Convergence, finer: str, unit: str) -> str:
         of.STAYS: every,
         of.UNSETTLED: "no limit settles over the steps tried: neither step nor model can be named",
         of.INSTANTS: f"instants of events: {enough}",
-    }[found.verdict]
+    }[convergence.verdict]

@@ -89,16 +89,16 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
         if climbed
         for name in motion
     ]
-    studied = {(ladder, name): found for ladder, name, found in studies}
+    studied = {(ladder, name): convergence for ladder, name, convergence in studies}
     moments: dict[str, str] = {}
     rows += [_judged(trial, name, runs, _worst(begun, name), studied, moments) for name in motion]
-    told, of_events = instants.judge(trial, events, runs, begun, sure)
+    event_rows, of_events = instants.judge(trial, events, runs, begun, sure)
     studies += of_events
     moments |= {name: words for name in events if (words := instants.spread(trial, name))}
     listed = instants.listed(trial, runs.judged)
     wanted = {name: trial.wanted(name) for name in motion} if trial.sampled else {}
     return Outcome(
-        rows + told,
+        rows + event_rows,
         [rungs(trial, *study) for study in studies],
         [step for study in studies for step in steps(trial, *study)],
         runs.judged,
@@ -108,14 +108,14 @@ def compare(trial: Trial, runs: Runs | None = None) -> Outcome:
     )
 
 
-def answered(trial: Trial, found: Climbed) -> Outcome:
+def answered(trial: Trial, climb: Climbed) -> Outcome:
     """Judges every quantity of a claim about states."""
     rows = [_audit(trial)]
     rows += [row(trial, name, REFUSED, because=why) for name, why in trial.withheld.items()]
-    if isinstance(found, str):
-        return Outcome(rows + _diverged(trial, trial.motion, found))
-    told = {name: trial.read(name, samples) for name, samples in found.items()}
-    return Outcome(rows + [_of_states(trial, name, told) for name in told], samples=told)
+    if isinstance(climb, str):
+        return Outcome(rows + _diverged(trial, trial.motion, climb))
+    read = {name: trial.read(name, samples) for name, samples in climb.items()}
+    return Outcome(rows + [_of_states(trial, name, read) for name in read], samples=read)
 
 
 def _of_states(trial: Trial, name: str, samples: Samples) -> Comparison:
@@ -178,8 +178,8 @@ def _judged(
     tuned = studied.get((ladders[0], name), NOTHING)
     error = metric.error(samples, wanted)
     unit = trial.quantity(name).unit
-    told = partial(cause, finer=runs.finer, simplified=trial.plan.simplified, unit=unit)
-    why = told(_telling(trial, name, error.largest, held, tuned))
+    reason = partial(cause, finer=runs.finer, simplified=trial.plan.simplified, unit=unit)
+    why = reason(_telling(trial, name, error.largest, held, tuned))
     at = moment(worst.trial, samples, wanted, error)
     least = floor(trial, name, trial.step)
     if at is not None:
@@ -191,7 +191,7 @@ def _judged(
             others = _study(trial, ladders[-1], runs, name, elsewhere)
             following = _study(trial, ladders[0], runs, name, elsewhere)
             others = _telling(trial, name, rest, others, following)
-            why = f"{why}: {told(others)}"
+            why = f"{why}: {reason(others)}"
     when = float(worst.trial.case.times[error.at])
     word = verdict(trial, name, error.largest, held, why, tuned)
     return judged(trial, name, word, error, when)
@@ -208,14 +208,14 @@ def _over_phases(study: Study, *, trial: Trial, runs: Runs, phases: Phases) -> S
 
     Smaller steps are known to keep it from one start, and are not asked of the others.
     """
-    ladder, name, found = study
+    ladder, name, convergence = study
     if not phases.moved:
         return study
     kept, climbed = ladder.plan(trial.plan).kept, runs.ladders[ladder]
-    steps = [h for h in sorted(climbed) if h <= (found.usable_step or 0.0)]
+    steps = [h for h in sorted(climbed) if h <= (convergence.usable_step or 0.0)]
     begun = ((h, [Begun(trial, climbed[h]), *phases.at(h, kept)]) for h in reversed(steps))
     usable = next((h for h, starts in begun if _keep(name, starts, h)), None)
-    return ladder, name, replace(found, usable_step=usable)
+    return ladder, name, replace(convergence, usable_step=usable)
 
 
 def _keep(name: str, begun: Sequence[Begun | str], step: float) -> bool:
@@ -225,13 +225,13 @@ def _keep(name: str, begun: Sequence[Begun | str], step: float) -> bool:
             return False
         trial, samples = run
         dated = trial.quantity(name).part in trial.case.events
-        off = instants.off if dated else _off
+        off = instants.off if dated else _largest_error
         if not off(trial, name, samples, step) <= (trial.allowed(name) or np.inf):
             return False
     return True
 
 
-def _off(trial: Trial, name: str, samples: Samples, step: float) -> float:
+def _largest_error(trial: Trial, name: str, samples: Samples, step: float) -> float:
     return metric.error(samples[name], trial.wanted(name)).largest
 
 

@@ -89,17 +89,17 @@ def study(
     uncertainty = max(uncertainty, enlarged, _noise(rungs))
     off = metric.largest(value - reference)
     settled = _settled(off, uncertainty, allow)
-    left = _left(rungs, exponents[0])
-    doubt = max(left, 0.0 if behind is None else _late(rungs, behind[keep]))
-    if settled == TEXTBOOK and left > metric.OF_ALLOW * allow:
-        settled, uncertainty = None, max(uncertainty, left)
-    doubt = max(doubt, _grown(rungs, size.sizes, off))
+    remainder = _slow_remainder(rungs, exponents[0])
+    doubt = max(remainder, 0.0 if behind is None else _lateness(rungs, behind[keep]))
+    if settled == TEXTBOOK and remainder > metric.OF_ALLOW * allow:
+        settled, uncertainty = None, max(uncertainty, remainder)
+    doubt = max(doubt, _growth(rungs, size.sizes, off))
     if settled in (WITHIN, ANOTHER) and off <= ANOTHER_BEYOND * doubt:
         settled, uncertainty = None, max(uncertainty, doubt)
     limit = metric.round_to_floor(off, enlarged), metric.round_up_to_floor(uncertainty, enlarged)
     if settled is None:
         return Convergence(size.verdict, errors, usable, *size.orders, *limit)
-    orders = NO_ORDER if _noise(rungs) else _told(_orders(rungs, TOLD * floor))
+    orders = NO_ORDER if _noise(rungs) else _order_range(_orders(rungs, TOLD * floor))
     return Convergence(settled, errors, usable, *orders, *limit)
 
 
@@ -132,7 +132,7 @@ def _settled(off: float, uncertainty: float, allow: float) -> str | None:
     return None
 
 
-def _left(rungs: Sequence[Array], declared: int) -> float:
+def _slow_remainder(rungs: Sequence[Array], declared: int) -> float:
     """How far from its limit the finest rung may be, where it falls more slowly than declared.
 
     As those of a solver that is stopped too soon, or of an engine that is late, do: as much is left
@@ -143,7 +143,7 @@ def _left(rungs: Sequence[Array], declared: int) -> float:
     return last**2 / (before - last) if slowly else 0.0
 
 
-def _late(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
+def _lateness(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
     """How far from its limit the finest rung may be behind an event: there no order shows it.
 
     An engine that sees it at the end of a step is late by what is left of that step, and on h, 2h,
@@ -152,7 +152,7 @@ def _late(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
     return float(np.max(metric.sizes(rungs[1] - rungs[0])[behind], initial=0.0))
 
 
-def _grown(rungs: Sequence[Array], sizes: Sequence[float], off: float) -> float:
+def _growth(rungs: Sequence[Array], sizes: Sequence[float], off: float) -> float:
     """How far from its limit the finest rung may be, where differences grow as the step falls.
 
     As where a fast turn is damped away on all coarse rungs: they are off by the same, and only
@@ -178,7 +178,7 @@ class _Size:
             return NO_ORDER
         last = [math.log2(b / a) for a, b in itertools.pairwise(self.sizes)][:LAST]
         clear = min(last) >= SLOWEST and max(last) - min(last) <= CLEAR
-        return _told(last) if clear else NO_ORDER
+        return _order_range(last) if clear else NO_ORDER
 
     @property
     def verdict(self) -> str:
@@ -192,7 +192,7 @@ class _Size:
         return STAYS if max(self.sizes) <= FALLEN * min(self.sizes) else UNSETTLED
 
 
-def _told(orders: Sequence[float]) -> Orders:
+def _order_range(orders: Sequence[float]) -> Orders:
     """The finest of the orders, the least and the largest."""
     return (orders[0], min(orders), max(orders)) if orders else NO_ORDER
 

@@ -40,16 +40,16 @@ class Plain:
 
     def __str__(self) -> str:
         if not self.unit:
-            return f"{self.what}: {_said(self.value)} (textbook {_said(self.wanted)})"
+            return f"{self.what}: {_number_text(self.value)} (textbook {_number_text(self.wanted)})"
         if self.unit.startswith("%") and self.value > WHOLE:
-            times = _said(self.value / WHOLE)
+            times = _number_text(self.value / WHOLE)
             return f"{self.what}: {times} times the largest kinetic energy a second"
         if self.unit.startswith("m") and abs(self.value) < 0.1:
-            return f"{self.what}: {_said(1e3 * self.value)} m{self.unit}"
-        return f"{self.what}: {_said(self.value)} {self.unit}"
+            return f"{self.what}: {_number_text(1e3 * self.value)} m{self.unit}"
+        return f"{self.what}: {_number_text(self.value)} {self.unit}"
 
 
-def _said(value: float) -> str:
+def _number_text(value: float) -> str:
     return f"{value:.3g}" if abs(value) > ROUNDING else "0"
 
 
@@ -66,10 +66,10 @@ def plain(trial: Trial) -> list[Plain]:
     asked = [f"{name}.{field}" for name in touching for field in ("normal", "tangent")]
     wanted = tuple(name for name in asked if name in table(scene) and name not in plan.withheld)
     times = trial.case.times
-    found = trial.engine.run(
+    answer = trial.engine.run(
         scene, trial.start, times, trial.step, plan, reactions=wanted, record=True
     )
-    motion = moved(found, scene, times)
+    motion = moved(answer, scene, times)
     return list(numbers(scene, trial.reference, motion, BESIDE * trial.step))
 
 
@@ -154,7 +154,7 @@ def depth(scene: Scene, contact: Any, motion: Trajectory) -> Iterator[Plain]:
     if contact.name in scene.pairs:
         heights = [contact.observe(whole, "gap")[_faced(contact, whole)]]
     elif contact.ahead_of is None:
-        heights = [one.observe(whole, "gap") for one in contact.each()]
+        heights = [point.observe(whole, "gap") for point in contact.each()]
     else:
         return
     yield Plain(f"depth of {contact.name}", -float(np.min(heights, initial=0.0)), "m")
@@ -179,9 +179,9 @@ def creep(
         sticks &= np.abs(observe(scene, reference, f"{name}.gap")) <= STILL
     sticks[0] = False
     if np.any(sticks):
-        found = np.abs(observe(scene, motion, f"{name}.slip")[sticks])
+        speeds = np.abs(observe(scene, motion, f"{name}.slip")[sticks])
         unit = table(scene)[f"{name}.slip"].unit
-        yield Plain(f"creep of {name}", float(np.mean(found)), unit)
+        yield Plain(f"creep of {name}", float(np.mean(speeds)), unit)
 
 
 def friction(
@@ -197,8 +197,8 @@ def friction(
     slides = (slip > max(STILL, SLIPS * float(np.max(slip)))) & (normal > 0) & touches & away
     slides[0] = False
     if np.any(slides):
-        found = float(np.mean(np.abs(along[slides]) / normal[slides]))
-        yield Plain(f"friction of {contact.name}", found, "", contact.kinetic)
+        coefficient = float(np.mean(np.abs(along[slides]) / normal[slides]))
+        yield Plain(f"friction of {contact.name}", coefficient, "", contact.kinetic)
 
 
 def restitution(

@@ -57,8 +57,8 @@ def judge(
             rows.append(_count(trial, event, worst))
         else:
             worst = max(begun, key=lambda run: _largest(*run, name))
-            climbs = [sure(study) for study in _climbed(trial, name, runs)]
-            rows.append(_each(trial, name, worst, runs, climbs))
+            climbs = [sure(study) for study in _ladder_errors(trial, name, runs)]
+            rows.append(_row(trial, name, worst, runs, climbs))
             studies += climbs
     return rows, studies
 
@@ -75,36 +75,36 @@ def _largest(trial: Trial, samples: Samples, name: str) -> float:
     partners = trial.timing.partners(event, samples[f"{event}.time"])
     if not len(partners):
         return 0.0
-    found = samples[name][: len(partners)]
-    return metric.error(found, trial.wanted(name)[partners]).largest
+    values = samples[name][: len(partners)]
+    return metric.error(values, trial.wanted(name)[partners]).largest
 
 
 def _count(trial: Trial, event: str, worst: Begun) -> Comparison:
     """Whether the event happens as often as in the reference; refused where steps cannot tell."""
     name, timing = f"{event}.count", worst.trial.timing
-    found = worst.samples[f"{event}.time"]
+    times = worst.samples[f"{event}.time"]
     most = len(timing.events[event])
-    least = most if len(found) == most else len(timing.surely(event, trial.step))
-    off = timing.miscounted(event, len(found), trial.step)
+    least = most if len(times) == most else len(timing.surely(event, trial.step))
+    off = timing.miscounted(event, len(times), trial.step)
     short = f" (of which {least} last long enough for this step)" if least < most else ""
-    why = f"reference {most}{short}, engine {len(found)}"
+    why = f"reference {most}{short}, engine {len(times)}"
     if off is None:
         return row(trial, name, REFUSED, because=f"adapter: {why}: a smaller step tells more")
     reached = verdict(trial, name, off, instants({trial.step: off}, 0.0), why)
     return judged(trial, name, reached, metric.Error(off, off, off, 0), None)
 
 
-def _each(trial: Trial, name: str, worst: Begun, runs: Runs, climbs: Sequence[Study]) -> Comparison:
+def _row(trial: Trial, name: str, worst: Begun, runs: Runs, climbs: Sequence[Study]) -> Comparison:
     """Times or states in their order, as many as both have; the count is another row's matter."""
     event, samples, timing = trial.quantity(name).part, worst.samples, worst.trial.timing
-    found = samples[name]
+    values = samples[name]
     times, partners = timing.events[event], timing.partners(event, samples[f"{event}.time"])
     both = len(partners)
     if not both:
-        told = not len(times) or len(timing.surely(event, trial.step))
-        why = NEVER if told else TOO_SHORT.format(trial.step)
+        resolved = not len(times) or len(timing.surely(event, trial.step))
+        why = NEVER if resolved else TOO_SHORT.format(trial.step)
         return row(trial, name, REFUSED, because=why)
-    error = metric.error(found[:both], worst.trial.wanted(name)[partners])
+    error = metric.error(values[:both], worst.trial.wanted(name)[partners])
     held = climbs[-1][2] if climbs else Convergence(UNSETTLED, {}, None)
     why = cause(held, runs.finer, trial.plan.simplified, trial.quantity(name).unit)
     sure = _first(trial, name, list(runs.ladders.values())[-1]) if climbs else both
@@ -123,7 +123,7 @@ def spread(trial: Trial, name: str) -> str:
     return f"if an impact lasts some steps here, {LATER}"
 
 
-def _climbed(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
+def _ladder_errors(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
     """For each ladder: the convergence of the errors by step, inf where the count is another one.
 
     They compare the events that the largest step of all can tell, or else the first.
@@ -141,13 +141,13 @@ def off(trial: Trial, name: str, samples: Samples, step: float, first: int = 0) 
     Of those, where their number is not given, that steps [s] of this size have to tell.
     """
     wanted, event, timing = trial.wanted(name), trial.quantity(name).part, trial.timing
-    found, first = samples[name], first or max(1, len(timing.surely(event, step)))
-    sure = len(timing.surely(event, step)) if len(found) < len(wanted) else 0
+    values, first = samples[name], first or max(1, len(timing.surely(event, step)))
+    sure = len(timing.surely(event, step)) if len(values) < len(wanted) else 0
     least = max(first, sure)
-    if not least <= len(found) <= len(wanted):
+    if not least <= len(values) <= len(wanted):
         return np.inf
     partners = timing.partners(event, samples[f"{event}.time"])[:first]
-    return metric.error(found[:first], wanted[partners]).largest
+    return metric.error(values[:first], wanted[partners]).largest
 
 
 def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:
@@ -170,24 +170,24 @@ def listed(trial: Trial, samples: Samples) -> list[Instant]:
             realised=trial.realised,
             event=event,
             k=k,
-            time=_told(trial, event, t),
-            difference=None if wanted is None else _told(trial, event, t - wanted),
+            time=_rounded(trial, event, t),
+            difference=None if wanted is None else _rounded(trial, event, t - wanted),
         )
         for event, times in trial.timing.events.items()
-        for found in [samples.get(f"{event}.time", np.zeros(0))]
-        for k, (t, wanted) in enumerate(_paired(trial, event, found, times), start=1)
+        for engine_times in [samples.get(f"{event}.time", np.zeros(0))]
+        for k, (t, wanted) in enumerate(_paired(trial, event, engine_times, times), start=1)
     ]
 
 
 def _paired(
-    trial: Trial, event: str, found: Array, times: Array
+    trial: Trial, event: str, engine_times: Array, times: Array
 ) -> Iterator[tuple[float, float | None]]:
     """Each of the engine's times [s] with that of the reference, where it has a partner."""
-    wanted = times[trial.timing.partners(event, found)].tolist()
-    return zip_longest(found.tolist(), wanted)
+    wanted = times[trial.timing.partners(event, engine_times)].tolist()
+    return zip_longest(engine_times.tolist(), wanted)
 
 
-def _told(trial: Trial, event: str, number: float) -> float:
+def _rounded(trial: Trial, event: str, number: float) -> float:
     return metric.round_to_floor(number, floor(trial, f"{event}.time", trial.step))
 
 

@@ -53,7 +53,7 @@ def judged(
     )
 
 
-def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
+def rungs(trial: Trial, ladder: Ladder, name: str, convergence: Convergence) -> Rungs:
     """A row of convergence.csv: what the errors by step say."""
     return Rungs(
         case=trial.case.name,
@@ -64,19 +64,19 @@ def rungs(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> Rungs:
         ladder=ladder.name,
         quantity=name,
         unit=trial.quantity(name).unit,
-        order=found.order,
-        order_low=found.order_low,
-        order_high=found.order_high,
-        limit=found.limit,
-        uncertainty=found.uncertainty,
-        usable_step=found.usable_step,
-        verdict=found.verdict,
+        order=convergence.order,
+        order_low=convergence.order_low,
+        order_high=convergence.order_high,
+        limit=convergence.limit,
+        uncertainty=convergence.uncertainty,
+        usable_step=convergence.usable_step,
+        verdict=convergence.verdict,
     )
 
 
-def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[StepError]:
+def steps(trial: Trial, ladder: Ladder, name: str, convergence: Convergence) -> list[StepError]:
     """Rows of steps.csv: the error at each step of a ladder, the smallest step first."""
-    least = floor(trial, name, min(found.errors))
+    least = floor(trial, name, min(convergence.errors))
     return [
         StepError(
             case=trial.case.name,
@@ -89,5 +89,5 @@ def steps(trial: Trial, ladder: Ladder, name: str, found: Convergence) -> list[S
             step=h,
             error=round_to_floor(error, least),
         )
-        for h, error in sorted(found.errors.items())
+        for h, error in sorted(convergence.errors.items())
     ]

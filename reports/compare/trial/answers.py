@@ -37,10 +37,10 @@ class BadAnswer(Exception):
 
 def plans(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
     """Each way once. Raises BadAnswer."""
-    found: Any = engine.plans(scene, start)
-    if not isinstance(found, Sequence) or isinstance(found, str):
-        raise BadAnswer(f"plans should be a list of plans and refusals, is {_kind(found)}")
-    ways = tuple(map(_way, found))
+    answer: Any = engine.plans(scene, start)
+    if not isinstance(answer, Sequence) or isinstance(answer, str):
+        raise BadAnswer(f"plans should be a list of plans and refusals, is {_kind(answer)}")
+    ways = tuple(map(_way, answer))
     if not ways:
         raise BadAnswer("plans is empty: a scene that is not run is refused")
     names = [way.realised for way in ways]
@@ -54,12 +54,12 @@ def _way(way: Any) -> Plan | Refusal:
     if not isinstance(way, Plan | Refusal):
         raise BadAnswer(f"plans should hold plans and refusals, holds {_kind(way)}")
     if not isinstance(way.realised, str) or way.realised not in WAYS:
-        told = f"one of {', '.join(WAYS)}, is {spelled(repr(way.realised), 50)}"
-        raise BadAnswer(f"realised should be {told}")
+        wanted = f"one of {', '.join(WAYS)}, is {spelled(repr(way.realised), 50)}"
+        raise BadAnswer(f"realised should be {wanted}")
     if isinstance(way, Refusal):
         return replace(way, because=spelled(way.because))
     for exponents in (way.held, way.following or ()):
-        if not all(isinstance(one, int | float) and one > 0 for one in exponents):
+        if not all(isinstance(exponent, int | float) and exponent > 0 for exponent in exponents):
             raise BadAnswer(f"exponents should be numbers, are {spelled(repr(exponents), 50)}")
     if not isinstance(way.withheld, Mapping):
         raise BadAnswer(f"withheld should say why by quantity, is {_kind(way.withheld)}")
@@ -67,17 +67,17 @@ def _way(way: Any) -> Plan | Refusal:
     return replace(way, withheld=withheld, simplified=spelled(way.simplified))
 
 
-def moved(found: Any, scene: Scene, times: Array) -> Trajectory:
+def moved(trajectory: Any, scene: Scene, times: Array) -> Trajectory:
     """A run's trajectory. Raises BadAnswer where it is another than was asked for."""
-    if not isinstance(found, Trajectory):
-        raise BadAnswer(f"run should give a trajectory, gives {_kind(found)}")
-    _rows("times", found.times, times.shape)
-    if not np.all(np.abs(found.times - times) <= SAME * times[-1]):
+    if not isinstance(trajectory, Trajectory):
+        raise BadAnswer(f"run should give a trajectory, gives {_kind(trajectory)}")
+    _check_rows("times", trajectory.times, times.shape)
+    if not np.all(np.abs(trajectory.times - times) <= SAME * times[-1]):
         raise BadAnswer("run gives other times than were asked for")
-    _states("states", found, scene)
-    if found.record is not None:
-        _recorded(found.record, scene, times)
-    return found
+    _check_states("states", trajectory, scene)
+    if trajectory.record is not None:
+        _recorded(trajectory.record, scene, times)
+    return trajectory
 
 
 def _recorded(record: Any, scene: Scene, times: Array) -> None:
@@ -85,56 +85,56 @@ def _recorded(record: Any, scene: Scene, times: Array) -> None:
     if not isinstance(record, Trajectory):
         raise BadAnswer(f"record should be a trajectory, is {_kind(record)}")
     steps = record.times
-    _rows("times of the record", steps, (steps.size if isinstance(steps, np.ndarray) else 0,))
+    _check_rows("times of the record", steps, (steps.size if isinstance(steps, np.ndarray) else 0,))
     # Two rows may be of one time, before and after a stop. Of NaN this is not so.
     if not (len(steps) > 1 and steps[0] < steps[-1] and np.all(np.diff(steps) >= 0.0)):
         raise BadAnswer("times of the record should rise from step to step")
     ends = np.abs(np.array([steps[0] - times[0], steps[-1] - times[-1]]))
     if not np.all(ends <= AROUND * np.max(np.diff(steps))):  # as a protocol reads it
         raise BadAnswer("the record should last from the first sample to the last")
-    _states("states of the record", record, scene)
+    _check_states("states of the record", record, scene)
     for body, rows in record.states.items():
         if not np.all(finite := np.all(np.isfinite(rows), axis=1)):
             at = float(steps[np.argmin(finite)])
             raise Diverged(f"{body} is not finite in the record from t = {at:.4g} s on")
 
 
-def claimed(found: Any, wanted: Sequence[str], scene: Scene, count: int) -> dict[str, Array]:
+def claimed(answer: Any, wanted: Sequence[str], scene: Scene, count: int) -> dict[str, Array]:
     """The wanted quantities of so many states. Raises BadAnswer where one is not told.
 
     Whatever else is told is nothing that was asked for.
     """
-    told, entries = by_quantity(found), len(coordinates(scene)) ** 2
+    values, entries = by_quantity(answer), len(coordinates(scene)) ** 2
     for name in wanted:
-        if name not in told:
+        if name not in values:
             raise BadAnswer(f"answer tells nothing of {name}, and not why")
-        if isinstance(told[name], str):
+        if isinstance(values[name], str):
             raise BadAnswer(f"answer withholds {name} of all states, and told it of one")
         shape: tuple[int, ...] = (count * entries,) if name == MASS_MATRIX else (count,)
         turned = name.rpartition(".")[2] == "attitude"
-        _rows(f"{name} of {count} states", told[name], (count, 4) if turned else shape)
-    return {name: told[name] for name in wanted}
+        _check_rows(f"{name} of {count} states", values[name], (count, 4) if turned else shape)
+    return {name: values[name] for name in wanted}
 
 
-def by_quantity(found: Any) -> Mapping[str, Any]:
+def by_quantity(answer: Any) -> Mapping[str, Any]:
     """An answer about states. Raises BadAnswer where it is none."""
-    if not isinstance(found, Mapping):
-        raise BadAnswer(f"answer should tell each quantity by its name, tells {_kind(found)}")
-    return found
+    if not isinstance(answer, Mapping):
+        raise BadAnswer(f"answer should tell each quantity by its name, tells {_kind(answer)}")
+    return answer
 
 
-def _states(what: str, found: Trajectory, scene: Scene) -> None:
-    if not isinstance(found.states, Mapping) or set(found.states) != set(scene.bodies):
-        told = ", ".join(scene.bodies)
-        has = spelled(", ".join(map(str, found.states)), 50) if found.states else "nothing"
-        raise BadAnswer(f"{what} should be those of {told}, are of {has}")
-    for body, rows in found.states.items():
-        _rows(f"{what} of {body}", rows, (len(found.times), scene.frame.width))
-    for name, rows in found.reactions.items():
-        _rows(f"{spelled(name, 50)}", rows, (len(found.times),))
+def _check_states(what: str, motion: Trajectory, scene: Scene) -> None:
+    if not isinstance(motion.states, Mapping) or set(motion.states) != set(scene.bodies):
+        wanted = ", ".join(scene.bodies)
+        has = spelled(", ".join(map(str, motion.states)), 50) if motion.states else "nothing"
+        raise BadAnswer(f"{what} should be those of {wanted}, are of {has}")
+    for body, rows in motion.states.items():
+        _check_rows(f"{what} of {body}", rows, (len(motion.times), scene.frame.width))
+    for name, rows in motion.reactions.items():
+        _check_rows(f"{spelled(name, 50)}", rows, (len(motion.times),))
 
 
-def _rows(what: str, rows: Any, shape: tuple[int, ...]) -> None:
+def _check_rows(what: str, rows: Any, shape: tuple[int, ...]) -> None:
     hides = isinstance(rows, np.ma.MaskedArray)  # numbers that it does not vouch for
     if not isinstance(rows, np.ndarray) or rows.dtype.kind not in "fiu" or hides:
         raise BadAnswer(f"{what} should be an array of numbers, is {_kind(rows)}")
@@ -142,20 +142,20 @@ def _rows(what: str, rows: Any, shape: tuple[int, ...]) -> None:
         raise BadAnswer(f"{what} should have the shape {shape}, has {rows.shape}")
 
 
-def read_back(found: Any, known: Mapping[str, float]) -> dict[str, float]:
+def read_back(numbers: Any, known: Mapping[str, float]) -> dict[str, float]:
     """The audit's numbers. Raises BadAnswer for what is none, and where there are none."""
-    if not isinstance(found, Mapping):
-        raise BadAnswer(f"measure should give numbers by name, gives {_kind(found)}")
-    for name, number in found.items():
+    if not isinstance(numbers, Mapping):
+        raise BadAnswer(f"measure should give numbers by name, gives {_kind(numbers)}")
+    for name, number in numbers.items():
         if name not in known:
             raise BadAnswer(
                 f"measure tells {spelled(repr(name), 50)}, which the case does not have"
             )
         if not isinstance(number, Real):
             raise BadAnswer(f"measure tells {name}, and it is no number: {_kind(number)}")
-    if not found:
+    if not numbers:
         raise BadAnswer("measure reads no number back: nothing shows that the physics is equal")
-    return {name: float(number) for name, number in found.items()}
+    return {name: float(number) for name, number in numbers.items()}
 
 
 def tunable(engine: Tunable, scene: Scene, start: Start) -> Options:
@@ -183,10 +183,10 @@ def tunable(engine: Tunable, scene: Scene, start: Start) -> Options:
 
 def _shaped(engine: Plain, scene: Scene, start: Start) -> None:
     """Raises BadAnswer where the shapes that a user has are not told as the protocol says."""
-    found: Any = engine.shapes(scene, start)
-    if not isinstance(found, Sequence) or not all(isinstance(one, Shape) for one in found):
-        raise BadAnswer(f"shapes should be a list of shapes, is {_kind(found)}")
-    for value in found:
+    shapes: Any = engine.shapes(scene, start)
+    if not isinstance(shapes, Sequence) or not all(isinstance(shape, Shape) for shape in shapes):
+        raise BadAnswer(f"shapes should be a list of shapes, is {_kind(shapes)}")
+    for value in shapes:
         if not isinstance(value.options, Mapping) or not _plain(value.options):
             raise BadAnswer(f"shapes should have options as a file has them, {_kind(value)}")
     words: Any = engine.own_contacts(scene)

@@ -30,11 +30,11 @@ def audit(trial: Trial) -> tuple[float, str]:
 
     Rounding is nothing: what is below a tenth of what counts as equal is told as 0.
     """
-    wanted, found, off = audited(trial)
+    wanted, measured, off = audited(trial)
     worst = max(off, key=off.__getitem__, default="")
     if off.get(worst, 0.0) <= NOTHING:
-        return 0.0, f"{len(found)} numbers read back"
-    what = f"{worst} is {found[worst]!r}, the case says {wanted[worst]!r}"
+        return 0.0, f"{len(measured)} numbers read back"
+    what = f"{worst} is {measured[worst]!r}, the case says {wanted[worst]!r}"
     return off[worst], what
 
 
@@ -44,10 +44,10 @@ def audited(trial: Trial) -> tuple[dict[str, float], dict[str, float], dict[str,
     Raises BadAnswer.
     """
     wanted = expected(trial.case.scene, trial.reference)
-    found = read_back(trial.engine.measure(trial.case.scene, trial.start), wanted)
+    measured = read_back(trial.engine.measure(trial.case.scene, trial.start), wanted)
     sizes = _sizes(trial.case.scene, wanted)
-    off = {n: _relative(x - wanted[n], sizes.get(n, wanted[n])) for n, x in found.items()}
-    return wanted, found, off
+    off = {n: _relative(x - wanted[n], sizes.get(n, wanted[n])) for n, x in measured.items()}
+    return wanted, measured, off
 
 
 def _relative(difference: float, size: float) -> float:

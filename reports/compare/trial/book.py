@@ -76,8 +76,8 @@ class Book:
         record: bool = False,
     ) -> Trajectory:
         """The motion from rest, as the examples start."""
-        found = approximated(self.setting, self.system, times, step)
-        return found if record else replace(found, record=None)
+        trajectory = approximated(self.setting, self.system, times, step)
+        return trajectory if record else replace(trajectory, record=None)
 
     def script(
         self,

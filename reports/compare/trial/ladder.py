@@ -98,5 +98,5 @@ def wanted_reactions(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
         and name in known
         and known[name].kind in ("force", "acceleration", "energy")  # of a joint: its drives' work
     )
-    told = (given for name in forces for given in scene.told_by(name))
-    return tuple(dict.fromkeys([*told, *scene.inner()]))
+    reactions = (given for name in forces for given in scene.told_by(name))
+    return tuple(dict.fromkeys([*reactions, *scene.inner()]))

@@ -32,12 +32,12 @@ def choose(seconds: float | None) -> None:
 
 def _above_zero(said: str | float, what: str, unit: str = "seconds") -> float:
     try:
-        found = float(said)
+        number = float(said)
     except ValueError:
-        found = 0.0
-    if not found > 0.0:  # nan is none either
+        number = 0.0
+    if not number > 0.0:  # nan is none either
         raise ValueError(f"{what} should be a number of {unit} above 0, is {said!r}")
-    return found
+    return number
 
 
 MEMORY = "TEXTMECH_MEMORY_LIMIT"
@@ -69,9 +69,9 @@ def _data_size() -> int:
     """Bytes of data that this process has, as its parent had them; 0 where nothing tells."""
     with (
         suppress(OSError, ValueError, IndexError),
-        open("/proc/self/status", encoding="ascii") as told,
+        open("/proc/self/status", encoding="ascii") as status,
     ):
-        return 1024 * next(int(line.split()[1]) for line in told if line.startswith("VmData:"))
+        return 1024 * next(int(line.split()[1]) for line in status if line.startswith("VmData:"))
     return 0
 
 
@@ -82,17 +82,17 @@ def memory_limit_text() -> str:
 
         most = resource.getrlimit(resource.RLIMIT_DATA)[0]
         if most != resource.RLIM_INFINITY:
-            return f"{min(most / GIB, _said(inf)):.3g} GiB"
+            return f"{min(most / GIB, _from_environment(inf)):.3g} GiB"
     return ""
 
 
 def _share(jobs: int) -> float:
     """GiB of each of so many processes."""
     all_of_it = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / GIB
-    return _said(max(LEAST, SHARE * all_of_it / jobs))
+    return _from_environment(max(LEAST, SHARE * all_of_it / jobs))
 
 
-def _said(usual: float) -> float:
+def _from_environment(usual: float) -> float:
     """GiB that the environment gives each process."""
     with suppress(KeyError, ValueError):
         if (said := float(os.environ[MEMORY])) > 0.0:

@@ -114,8 +114,8 @@ def _answers(rung: Rung) -> Samples:
     assert isinstance(engine, Claims)
     drawn = case.states.drawn(case.scene)
     wanted = tuple(rung.bounds)
-    found = engine.answer(case.scene, rung.start, drawn, wanted)
-    samples = claimed(found, wanted, case.scene, case.samples)
+    answer = engine.answer(case.scene, rung.start, drawn, wanted)
+    samples = claimed(answer, wanted, case.scene, case.samples)
     for name, rows in samples.items():
         if not np.all(np.isfinite(rows)):
             raise Diverged(f"{name} is not finite")
@@ -127,21 +127,21 @@ def _events(rung: Rung, trajectory: Trajectory) -> Samples:
 
     The states are those that the case bounds; what cannot be read from the record is left out.
     """
-    found: dict[str, Array] = {}
+    samples: dict[str, Array] = {}
     case, record = rung.case, trajectory.record
     if record is None:
-        return found
+        return samples
     for name, event in case.events.items():
         with suppress(KeyError):  # a reaction that is not recorded at every step
             known = rung.events.get(name)
-            found[f"{name}.time"] = engine_events(case.scene, record, event, known)
+            samples[f"{name}.time"] = engine_events(case.scene, record, event, known)
     for name in case.allow:
         at = at_event(name, case.events)
-        if at is not None and f"{at.event}.time" in found:
-            times = found[f"{at.event}.time"]
+        if at is not None and f"{at.event}.time" in samples:
+            times = samples[f"{at.event}.time"]
             with suppress(KeyError):
-                found[name] = engine_states(case, record, at, times)
-    return found
+                samples[name] = engine_states(case, record, at, times)
+    return samples
 
 
 # How an engine's turns in space are counted: attitudes tell none, and samples may be far apart.

@@ -65,7 +65,7 @@ def _bounds(trial: Trial) -> dict[str, float]:
     }
 
 
-def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
+def gathered(trial: Trial, climbed: Mapping[At, Climbed]) -> Runs:
     """The rungs by their ladders.
 
     Rungs that diverge are left out, and what is coarser than they are; the judged run stays.
@@ -76,7 +76,7 @@ def gathered(trial: Trial, found: Mapping[At, Climbed]) -> Runs:
     for ladder in ladders(trial.case, trial.engine, trial.plan):
         kept[ladder] = {}
         for h in reversed(ladder.steps):
-            samples = found[ladder.name, h]
+            samples = climbed[ladder.name, h]
             if isinstance(samples, str):
                 kept[ladder].clear()
                 if h < trial.step:

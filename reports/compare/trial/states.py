@@ -42,8 +42,8 @@ def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]
     way = next(way for way in planned(engine, alone, start) if way.realised == "native")
     if isinstance(way, Refusal):
         return (way,)
-    told = engine.answer(case.scene, start, _drawn(case, 1), tuple(case.allow))
-    because = {name: what for name, what in by_quantity(told).items() if isinstance(what, str)}
+    answer = engine.answer(case.scene, start, _drawn_states(case, 1), tuple(case.allow))
+    because = {name: what for name, what in by_quantity(answer).items() if isinstance(what, str)}
     whys = {name: spelled(what) for name, what in because.items()}
     return (Plan("native", held=(), withheld=whys),)
 
@@ -54,6 +54,6 @@ def rung(trial: Trial) -> Rung:
     return Rung(trial.case, trial.engine, trial.start, trial.plan, trial.case.duration, most)
 
 
-def _drawn(case: Case, count: int) -> dict[str, Array]:
+def _drawn_states(case: Case, count: int) -> dict[str, Array]:
     assert case.states is not None
     return {name: rows[:count] for name, rows in case.states.drawn(case.scene).items()}

@@ -11,7 +11,7 @@ def spelled(text: object, most: int = MOST) -> str:
 
     In quotes where it begins as a formula does: a spreadsheet would compute it.
     """
-    said = _said(text)
+    said = _as_text(text)
     size = len(said)
     # Of a megabyte only what can be shown is looked at.
     line = " ".join(said[: 4 * most].split())
@@ -25,10 +25,10 @@ def why(error: BaseException) -> str:
     """The error's type and message in one line, whatever they are, with the limit of memory."""
     held = limit.memory_limit_text() if isinstance(error, MemoryError) else ""
     most = f"its process may take {held}" if held else ""
-    return spelled(f"{type(error).__name__}: {', '.join(filter(None, (_said(error), most)))}")
+    return spelled(f"{type(error).__name__}: {', '.join(filter(None, (_as_text(error), most)))}")
 
 
-def _said(text: object) -> str:
+def _as_text(text: object) -> str:
     try:
         said = str(text)
     except BaseException as error:  # somebody's own __str__

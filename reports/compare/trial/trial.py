@@ -26,20 +26,20 @@ SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they 
 
 def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
     """How a scene is tried: beside a law or driver always a native row, or why there is none."""
-    found = plans(engine, scene, start)
-    native = any(way.realised == "native" for way in found)
-    return found if native else (Refusal("native", NOTHING_OF_ITS_OWN), *found)
+    answered = plans(engine, scene, start)
+    native = any(way.realised == "native" for way in answered)
+    return answered if native else (Refusal("native", NOTHING_OF_ITS_OWN), *answered)
 
 
 def with_room(
-    found: tuple[Plan | Refusal, ...], case: Case, engine: Engine
+    planned: tuple[Plan | Refusal, ...], case: Case, engine: Engine
 ) -> tuple[Plan | Refusal, ...]:
     """The ways, refused where three samples are more than the engine's own step leaves room for."""
     own = engine.own_step
     if own is None or 2 * own <= case.duration:
-        return found
+        return planned
     why = f"adapter: {case.duration:g} s are less than two of its steps of {own:g} s"
-    return tuple(Refusal(way.realised, why) for way in found)
+    return tuple(Refusal(way.realised, why) for way in planned)
 
 
 def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
@@ -108,17 +108,17 @@ class Trial:
         return {
             name: whys[told_by]
             for name in judged_names(self.case)
-            for told_by in self._told_by(name)
+            for told_by in self._sources(name)
             if told_by in whys
         }
 
-    def _told_by(self, name: str) -> tuple[str, ...]:
+    def _sources(self, name: str) -> tuple[str, ...]:
         """The quantity itself with what it follows from, and that of the event."""
         if not self._dated(name):
             return (name, *self.case.scene.told_by(name))
         event = self.case.events[self.quantity(name).part].quantity
-        found = at_event(name, self.case.events)
-        return (event, found.quantity) if found else (event,)
+        at = at_event(name, self.case.events)
+        return (event, at.quantity) if at else (event,)
 
     def _dated(self, name: str) -> bool:
         return self.quantity(name).part in self.case.events
@@ -126,15 +126,15 @@ class Trial:
     @property
     def motion(self) -> tuple[str, ...]:
         """The judged quantities that the engine tells at every sample."""
-        return tuple(name for name in self._told if not self._dated(name))
+        return tuple(name for name in self._given_names if not self._dated(name))
 
     @property
     def instants(self) -> tuple[str, ...]:
         """The judged names of events, for times, counts and states, that the engine gives."""
-        return tuple(name for name in self._told if self._dated(name))
+        return tuple(name for name in self._given_names if self._dated(name))
 
     @property
-    def _told(self) -> list[str]:
+    def _given_names(self) -> list[str]:
         return [name for name in judged_names(self.case) if name not in self.withheld]
 
     @cached_property
@@ -146,12 +146,12 @@ class Trial:
     def _at_events(self) -> dict[str, Array]:
         """The reference's times (K,) and states (K,) of what is judged of events."""
         events = self.timing.events
-        found = {f"{event}.time": times for event, times in events.items()}
+        samples = {f"{event}.time": times for event, times in events.items()}
         for name in self.case.allow:
             at, record = at_event(name, self.case.events), self.reference.record
             if at is not None and record is not None:
-                found[name] = reference_states(self.case, record, at, events[at.event])
-        return found
+                samples[name] = reference_states(self.case, record, at, events[at.event])
+        return samples
 
     def away(self, distance: float) -> NDArray[np.bool_]:
         """Which samples (N,) are at least `distance` [s] from where the reference switches."""
@@ -177,10 +177,10 @@ class Trial:
 
     def quantity(self, name: str) -> Quantity:
         """The quantity's unit and kind; the audit has none."""
-        return self._known.get(name) or Quantity(name, "", "", "", "residual")
+        return self._quantities.get(name) or Quantity(name, "", "", "", "residual")
 
     @cached_property
-    def _known(self) -> dict[str, Quantity]:
+    def _quantities(self) -> dict[str, Quantity]:
         seen, events = self.case.quantities, self.case.events
         return seen | event_quantities(events) | at_events(events, seen)
 

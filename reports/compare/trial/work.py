@@ -30,10 +30,10 @@ def too_long(cases: Sequence[Case], engines: Sequence[Engine]) -> list[Mistake]:
     for case in cases:
         if not case.long:
             files.setdefault(case.source.file, []).append(case)
-    return [m for group in files.values() for engine in engines for m in _of(group, engine)]
+    return [m for group in files.values() for engine in engines for m in _too_long(group, engine)]
 
 
-def _of(cases: Sequence[Case], engine: Engine) -> Iterator[Mistake]:
+def _too_long(cases: Sequence[Case], engine: Engine) -> Iterator[Mistake]:
     """At the variant that asks for most."""
     counts = [_steps(case, engine) for case in cases]
     steps, most = sum(counts), cases[counts.index(max(counts))]
@@ -42,10 +42,10 @@ def _of(cases: Sequence[Case], engine: Engine) -> Iterator[Mistake]:
         return
     seconds = [count * pace(case, engine) for count, case in zip(counts, cases, strict=True)]
     if max(seconds) > LIMIT:
-        most, count = max(zip(cases, counts, strict=True), key=lambda one: one[1])
+        most, count = max(zip(cases, counts, strict=True), key=lambda pair: pair[1])
         what = f"{count:.3g} steps, which take {about(max(seconds))}"
         yield _mistake(most, engine, what, f"{LIMIT / 60:g} minutes")
-    kept = [_kept(case, engine) for case in cases]
+    kept = [_kept_rows(case, engine) for case in cases]
     most = cases[kept.index(max(kept))]
     if max(kept) > KEPT:
         yield _mistake(most, engine, f"{max(kept):.3g} rows kept for the events", f"{KEPT:g}")
@@ -76,8 +76,8 @@ def pace(case: Case, engine: Engine) -> float:
     if not isinstance(engine, Paced):
         return usual
     name = engine.name, engine.setting, engine.version
-    told = _told(_Asked((*name, case.name, case.source.file), engine, case.scene))
-    return told if told is not None and 0.0 < told < LIMIT else usual
+    measured = _own_pace(_Asked((*name, case.name, case.source.file), engine, case.scene))
+    return measured if measured is not None and 0.0 < measured < LIMIT else usual
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ class _Asked:
 
 
 @lru_cache(10_000)  # of somebody else's engine a process is asked, and each run asks again
-def _told(asked: _Asked) -> float | None:
+def _own_pace(asked: _Asked) -> float | None:
     if not foreign(asked.of[0]) or multiprocessing.current_process().daemon:
         return guarded(lambda: _number(asked))[0]
     if threading.current_thread() is not threading.main_thread():
@@ -110,7 +110,7 @@ def _steps(case: Case, engine: Engine) -> float:
     return rungs * case.duration / judged_step(case, engine)
 
 
-def _kept(case: Case, engine: Engine) -> float:
+def _kept_rows(case: Case, engine: Engine) -> float:
     """Rows of bodies at every step of the finest rung, from which events are read."""
     finest = 1 if engine.own_step is None else 2 ** (RUNGS_DOWN - 1)
     bodies = len(case.scene.bodies) if case.events else 0

@@ -222,7 +222,7 @@ def test_who_is_asked_for_his_pace_costs_nobody_anything(monkeypatch: pytest.Mon
     monkeypatch.setattr(work, "PATIENCE", 0.5)
     asked: Any = ("strange", "shipped", "1")
     told = [
-        work._told(work._Asked((*asked, str(i)), Paced(act), SCENE))
+        work._own_pace(work._Asked((*asked, str(i)), Paced(act), SCENE))
         for i, act in enumerate([lambda: 2e-3, leaves, lambda: os._exit(0), lambda: time.sleep(60)])
     ]
     assert told == [2e-3, None, None, None]

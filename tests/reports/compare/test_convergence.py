@@ -253,7 +253,7 @@ def test_what_falls_more_slowly_than_declared_has_no_limit_yet(
     assert found.limit is not None
     assert found.uncertainty is not None
     assert found.limit < 2 * found.uncertainty
-    monkeypatch.setattr(convergence, "_left", lambda *_: 0.0)
+    monkeypatch.setattr(convergence, "_slow_remainder", lambda *_: 0.0)
     assert judge(rungs, p=4, allow=1e-5).verdict == ANOTHER
 
 
@@ -269,7 +269,7 @@ def test_a_ladder_that_only_begins_to_resolve_blames_no_model(
     assert found.verdict not in (TEXTBOOK, WITHIN, ANOTHER)
     if finest > 0.1:
         assert found.uncertainty == found.limit
-        monkeypatch.setattr(convergence, "_grown", lambda *_: 0.0)
+        monkeypatch.setattr(convergence, "_growth", lambda *_: 0.0)
         assert judge(rungs, p=1, allow=1e-2).verdict == ANOTHER
 
 
