@@ -82,35 +82,35 @@ class Advised:
 FEWEST, CHEAPEST, BOTH = "fewest changes", "cheapest", "both"
 
 
-def rows(one: Advised) -> list[Advice]:
+def rows(advised: Advised) -> list[Advice]:
     """The rows of advice.csv: one, or one for each of two recipes."""
     empty = Advice(
-        one.pair.case.name,
-        " ".join(themes(one.pair.case)),
-        one.pair.engine.name,
-        one.asked.tolerance,
-        one.asked.margin,
+        advised.pair.case.name,
+        " ".join(themes(advised.pair.case)),
+        advised.pair.engine.name,
+        advised.asked.tolerance,
+        advised.asked.margin,
         *("", "none", "", None, None, None, None, "", ""),
     )
-    search = one.search
+    search = advised.search
     if search is None:
-        assert isinstance(one.way, Refusal)
-        return [replace(empty, remains=one.way.because)]
-    empty = replace(empty, shipped_cost=search.cost(one.shipped))
-    if one.recipes is None:
-        return [replace(empty, **_remains(one, search))]
+        assert isinstance(advised.way, Refusal)
+        return [replace(empty, remains=advised.way.because)]
+    empty = replace(empty, shipped_cost=search.cost(advised.shipped))
+    if advised.recipes is None:
+        return [replace(empty, **_remains(advised, search))]
     return [
         replace(
             empty,
             want=want,
             recipe=words(recipe.choice),
-            settings=settings(one.pair, recipe.candidate),
+            settings=settings(advised.pair, recipe.candidate),
             step=recipe.candidate.step,
             cost=search.cost(recipe.candidate),
             ratio=worst,
             quantity=quantity,
         )
-        for want, recipe in one.wanted
+        for want, recipe in advised.wanted
         for worst, quantity in [search.worst(recipe.candidate)]
     ]
 
@@ -135,9 +135,9 @@ def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
     return ".".join(part) if value is True else f"{'.'.join(part)} {short_value(value)}"
 
 
-def _remains(one: Advised, search: Search) -> dict[str, str | float]:
+def _remains(tried: Advised, search: Search) -> dict[str, str | float]:
     """Columns: what no recipe brings within, what the engine leaves out of the scene."""
-    assert isinstance(one.way, Plan)
+    assert isinstance(tried.way, Plan)
     nearest = best(search)
     columns: dict[str, str | float] = {}
     if nearest is None:
@@ -152,12 +152,11 @@ def _remains(one: Advised, search: Search) -> dict[str, str | float]:
         if search.passes(candidate):
             what += ", and the next finer step does not confirm it"
         elif not search.elsewhere.get(candidate, 0.0) <= 1.0:
-            what += (
-                f", and not {'on other shapes' if one.shapes else 'where a loop is cut elsewhere'}"
-            )
+            elsewhere = "on other shapes" if tried.shapes else "where a loop is cut elsewhere"
+            what += f", and not {elsewhere}"
         elif worst <= 1.0:
-            what += f": within what is asked for, but not by the margin of {one.asked.margin:g}"
+            what += f": within what is asked for, but not by the margin of {tried.asked.margin:g}"
         else:
             what = f"{quantity} stays ×{worst:.2g} {at}, the best of all that was tried"
         columns = {"ratio": worst, "quantity": quantity}
-    return {**columns, "remains": "; ".join(filter(None, (what, one.way.simplified)))}
+    return {**columns, "remains": "; ".join(filter(None, (what, tried.way.simplified)))}

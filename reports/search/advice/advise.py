@@ -49,9 +49,9 @@ def advise(
     sampled = _sampled(pairs, results)
     broken = lost({pair.name: pair for pair, why in sampled if not why}, results)
     ready = [_prepared(pair, asked, why, broken.get(pair.name, "")) for pair, why in sampled]
-    searches = {one.pair.name: (one, one.search) for one in ready if one.search}
+    searches = {item.pair.name: (item, item.search) for item in ready if item.search}
     shipped = {
-        name: partial(search.runs.need, [one.shipped]) for name, (one, search) in searches.items()
+        name: partial(search.runs.need, [item.shipped]) for name, (item, search) in searches.items()
     }
     together("shipped", shipped, results)
     listener.begun(ready)
@@ -62,20 +62,20 @@ def advise(
     except KeyboardInterrupt:
         listener.stopped(ready)
         raise
-    return [advice.get(one.pair.name, one) for one in ready]
+    return [advice.get(item.pair.name, item) for item in ready]
 
 
-def _searched(one: Advised, search: Search) -> Advised:
+def _searched(advised: Advised, search: Search) -> Advised:
     """With recipes that hold in every model that a user may have, though there without a margin.
 
     What does not is left out, and the rest searched once more.
     """
-    held = [variant for variant in one.variants if variant.held]
+    held = [variant for variant in advised.variants if variant.held]
     search.elsewhere.clear()
     for _ in range(ROUNDS):
-        tried = replace(one, recipes=recipes(search))
+        tried = replace(advised, recipes=recipes(search))
         choices = [recipe.choice for _, recipe in tried.wanted]
-        if one.asked.front:
+        if advised.asked.front:
             tuned = Choice(search.candidates.tuned)
             search.runs.need(rungs_of(search, tuned, *choices))
         candidates = [
@@ -91,8 +91,8 @@ def _searched(one: Advised, search: Search) -> Advised:
         if all(search.passes(recipe.candidate) for _, recipe in tried.wanted):
             break
     else:
-        tried = one
-    shapes = [variant for variant in one.variants if variant.words]
+        tried = advised
+    shapes = [variant for variant in advised.variants if variant.words]
     need((variant.runs, candidate) for variant in shapes for candidate in tried.pasted)
     beside = {c: [(v.words, *search.worst(c, v.runs)) for v in shapes] for c in tried.pasted}
     return replace(tried, beside=beside)

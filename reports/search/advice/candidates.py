@@ -66,10 +66,10 @@ class Candidates:
         """Whole recipes, the tuned one too, alone or with so many options more."""
         named = [_choice(knob, v) for knob in self._knobs(bundle=True) for v in knob.values]
         return [
-            whole.also(one)
+            whole.also(choice)
             for whole in (*named, Choice(self.tuned, 1))
-            for one in self.choices(more)
-            if not more or merged(whole.options, one.options) != dict(whole.options)
+            for choice in self.choices(more)
+            if not more or merged(whole.options, choice.options) != dict(whole.options)
         ]
 
     def groups(self) -> Iterator[list[Ladder[Choice]]]:

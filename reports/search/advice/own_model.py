@@ -122,20 +122,20 @@ def advised(case: ModelCase, tolerance: float | None, margin: float) -> OwnAdvic
     if tolerance is not None:
         case = replace(case, allow={JOINTS: Amount(tolerance)})
     ready = opened(case)
-    own, told = ready.own, str(ready.own)
+    own, name = ready.own, str(ready.own)
     if not own.model.nv:
-        return OwnAdvice(case.name, told, margin, (), "nothing moves")
+        return OwnAdvice(case.name, name, margin, (), "nothing moves")
     suspected = suspicions(own)
     asked = _Asked(case, ready, margin)
     try:
-        tried = [_tried(asked, suspected)]
+        tried = [_advice_on(asked, suspected)]
         further = _further(asked, suspected)
         if further and not tried[0].seen and _would_be_seen(further):
-            moved = _tried(further, suspected)
+            moved = _advice_on(further, suspected)
             tried += [moved] if moved.seen else []
     except NoLimit as error:
-        return OwnAdvice(case.name, told, margin, (), f"no limit: {error}")
-    return OwnAdvice(case.name, told, margin, tried)
+        return OwnAdvice(case.name, name, margin, (), f"no limit: {error}")
+    return OwnAdvice(case.name, name, margin, tried)
 
 
 def _further(asked: _Asked, suspected: Sequence[Suspicion]) -> _Asked | None:
@@ -165,7 +165,7 @@ def _would_be_seen(asked: _Asked) -> bool:
     return late or any(off > asked.opened.joints[k] for k, off in short.items())
 
 
-def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
+def _advice_on(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     own, h = asked.own, asked.own.model.opt.timestep
     mine = integrator_of(own, Setting(OWN, {}, h))
     named = [Setting(i, {"integrator": i}, h) for i in INTEGRATORS if i != mine]
@@ -173,16 +173,16 @@ def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     exact = result.limit
     first, *others = result.settings
     known = f"{exact.method}, known to {result.known:.0e} rad or m"
-    told = Tried(own.started, known, result.until, _recipe(asked, first, h))
+    base = Tried(own.started, known, result.until, _recipe(asked, first, h))
     if result.known > KNOWN * min(asked.opened.bars.values()):
-        return replace(told, because="its limit is not known well enough to judge steps")
+        return replace(base, because="its limit is not known well enough to judge steps")
     shown = seen(asked.opened, exact, result.until).joints
     coarsest = _coarsest(asked, result, [first, *others[-len(named) :]])
     usable = [recipe for recipe in coarsest if recipe.keeps]
-    own_ratio = inf if told.own.ratio is None else told.own.ratio
+    own_ratio = inf if base.own.ratio is None else base.own.ratio
     nearer = any((recipe.ratio or inf) < ARRIVES * own_ratio for recipe in coarsest)
     if own_ratio > 1 and not shown and not nearer:
-        return replace(told, because="finer steps come no nearer to its limit")
+        return replace(base, because="finer steps come no nearer to its limit")
     cures: list[Recipe] = []
     if shown or own_ratio > 1:
         at_own = [each for each in others if (each.keeps or 0.0) >= h]
@@ -194,7 +194,7 @@ def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
         tried = (_changed(asked, change, result) for change in kind)
         cures += [*islice(filter(None, tried), 1)]
     return replace(
-        told,
+        base,
         seen=[*shown.values(), *_softened(asked, result)],
         suspected=[each.words for each in suspected if each.dof in shown],
         coarsest=coarsest,

@@ -40,8 +40,8 @@ def _cause(row: Comparison, cure: Cure, cost: Cost, elsewhere: bool) -> Cause:
 def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
     """Where only a law or driver of ours agrees."""
     return [
-        replace(without(row, OURS[one.realised]), step=one.step, error_after=one.error)
-        for one in agreeing
+        replace(without(row, OURS[other.realised]), step=other.step, error_after=other.error)
+        for other in agreeing
     ]
 
 
@@ -49,11 +49,11 @@ def by_ladder(
     rows: Sequence[Comparison], steps: Sequence[StepError], ladders: Sequence[Rungs]
 ) -> Iterator[Cause]:
     """The step, where a row's own held ladder knows one from which on it keeps what is allowed."""
-    usable = {_at(one): one.usable_step for one in ladders if one.ladder == "held"}
-    errors = {(*_at(one), one.step): one.error for one in steps if one.ladder == "held"}
+    usable = {_key(rungs): rungs.usable_step for rungs in ladders if rungs.ladder == "held"}
+    errors = {(*_key(step), step.step): step.error for step in steps if step.ladder == "held"}
     for row in rows:
-        step = usable.get(_at(row))
-        error = errors.get((*_at(row), step or 0.0))
+        step = usable.get(_key(row))
+        error = errors.get((*_key(row), step or 0.0))
         if error is not None:
             yield replace(without(row, STEP.words), step=step, error_after=as_written(error))
 
@@ -63,7 +63,7 @@ def without(row: Comparison, words: str) -> Cause:
     return Cause(*key_of(row), row.error, row.allowed, words, *("", None, None, None, ""))
 
 
-def _at(row: Comparison | Rungs | StepError) -> tuple[str, ...]:
+def _key(row: Comparison | Rungs | StepError) -> tuple[str, ...]:
     return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
@@ -76,14 +76,14 @@ def climbed(
     away from instants too, which is no larger. Nothing is known where numbers follow the step, for
     then a ladder holds them; nor of a count, which has no ladder.
     """
-    native = [one for one in steps if one.realised == "native"]
-    if any(one.ladder != "held" for one in native):
+    native = [run for run in steps if run.realised == "native"]
+    if any(run.ladder != "held" for run in native):
         return {}
     allowed = {row.quantity: row.allowed for row in rows if row.allowed}
     ladder: dict[float, dict[str, tuple[float, float]]] = {}
-    for one in native:
-        if allow := allowed.get(one.quantity):
-            ladder.setdefault(one.step, {})[one.quantity] = (one.error / allow, one.error / allow)
+    for run in native:
+        if allow := allowed.get(run.quantity):
+            ladder.setdefault(run.step, {})[run.quantity] = (run.error / allow, run.error / allow)
     whole = {step: errors for step, errors in ladder.items() if errors.keys() == allowed.keys()}
     if base.step not in whole:
         return {}

@@ -105,11 +105,11 @@ def _carried(
         if key[:2] not in moved
         and (before := known.causes.get(key))
         and (word := words.get(key[:3]))
-        and all(_asked(cause, cause.searched_with) == _asked(row, word) for cause in before)
+        and all(_inputs(cause, cause.searched_with) == _inputs(row, word) for cause in before)
     }
 
 
-def _asked(row: Cause | Comparison, word: str) -> tuple[str, float | None, float | None]:
+def _inputs(row: Cause | Comparison, word: str) -> tuple[str, float | None, float | None]:
     return word, as_written(row.error), as_written(row.allowed)
 
 
@@ -134,7 +134,7 @@ def _searched(
     for where, pair in referenced.items():
         if where not in broken:
             field, runs = between(pair), Runs(pair)
-            mine = [one for one in steps if (one.case, one.engine, one.setting) == where]
+            mine = [step for step in steps if (step.case, step.engine, step.setting) == where]
             if not pair.reference().blows.size:  # a ladder tells of one start alone
                 for candidate, errors in climbed(field.base, of[where], mine).items():
                     runs.add(candidate, errors)
@@ -152,7 +152,7 @@ def _cost(pair: Pair, base: Candidate) -> Cost:
     engine = pair.engine
     assert isinstance(engine, Tunable)
     cost = engine.cost(pair.case.scene, first(pair.reference()))
-    return lambda one: cost(one.options, one.step) / cost(base.options, base.step)
+    return lambda candidate: cost(candidate.options, candidate.step) / cost(base.options, base.step)
 
 
 def _referenced(pairs: Mapping[Where, Pair], results: Results) -> dict[Where, Pair]:

@@ -133,7 +133,7 @@ def _that_matter(errors: RowErrors) -> list[Change]:
     step = field.steps[len(field.steps) // 2]
     knobs = [change for change in field.changes if change is not STEP]
     every = field.candidate(knobs).at(step)
-    without = {one: field.candidate(k for k in knobs if k is not one).at(step) for one in knobs}
+    without = {knob: field.candidate(k for k in knobs if k is not knob).at(step) for knob in knobs}
     errors.runs.need([every, *without.values()])
 
     def differ(a: Candidate, b: Candidate) -> bool:

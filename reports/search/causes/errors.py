@@ -86,27 +86,27 @@ def errors(run: Run) -> Errors:
 
 def _errors(run: Run, begun: Begun) -> Errors:
     trial, samples = begun
-    found = {name: _off(trial, name, samples) for name in judged_names(run.pair.case)}
+    differences = {name: _differences(trial, name, samples) for name in judged_names(run.pair.case)}
     elsewhere = away_from_instants(replace(trial, engine=run.pair.engine))
     return {
         name: (_ratio(trial, name, off), _ratio(trial, name, off[elsewhere]))
         if name in trial.motion
         else (_ratio(trial, name, off), _ratio(trial, name, off))
-        for name, off in found.items()
+        for name, off in differences.items()
         if off is not None
     }
 
 
-def _off(trial: Trial, name: str, samples: Samples) -> Array | None:
+def _differences(trial: Trial, name: str, samples: Samples) -> Array | None:
     """The differences (N,), at events (K,), of a count (1,); None where there is none to take."""
     if name in trial.withheld:
         return None
     event, timing = trial.quantity(name).part, trial.timing
     if trial.quantity(name).field == "count" and name in trial.instants:
-        found = samples.get(f"{event}.time")
-        if found is None:
+        times = samples.get(f"{event}.time")
+        if times is None:
             return None
-        off = timing.miscounted(event, len(found), trial.step)
+        off = timing.miscounted(event, len(times), trial.step)
         return None if off is None else np.array([off])
     if name not in samples:
         return None

@@ -35,13 +35,13 @@ def explain(
 ) -> None:
     """Puts the causes of its rows into the report."""
     moments = {
-        (one.pair.case.name, one.pair.engine.name, one.pair.engine.setting, name): words
-        for one in report.tried
-        if one.realised == "native"
-        for name, words in one.outcome.moments.items()
+        (run.pair.case.name, run.pair.engine.name, run.pair.engine.setting, name): words
+        for run in report.tried
+        if run.realised == "native"
+        for name, words in run.outcome.moments.items()
     }
-    found = report.comparisons, report.steps, report.rungs
-    report.causes = found_causes(*found, pairs, results, search=search, known=known)
+    tables = report.comparisons, report.steps, report.rungs
+    report.causes = found_causes(*tables, pairs, results, search=search, known=known)
     report.comparisons = with_causes(report.comparisons, report.causes, moments)
 
 
@@ -57,12 +57,12 @@ def with_causes(
     rows: Sequence[Comparison], causes: Sequence[Cause], moments: Moments
 ) -> list[Comparison]:
     """The rows, of which each that has causes says them."""
-    found: dict[Key, list[Cause]] = {}
+    by_row: dict[Key, list[Cause]] = {}
     for cause in causes:
-        found.setdefault(key_of(cause), []).append(cause)
+        by_row.setdefault(key_of(cause), []).append(cause)
     return [
-        _with(row, found[key_of(row)], moments.get(key_of(row), ""))
-        if row.realised == "native" and key_of(row) in found
+        _with(row, by_row[key_of(row)], moments.get(key_of(row), ""))
+        if row.realised == "native" and key_of(row) in by_row
         else row
         for row in rows
     ]
@@ -75,18 +75,18 @@ def _with(row: Comparison, causes: Sequence[Cause], moment: str) -> Comparison:
         return row
     declared = row.because if row.verdict in (DEVIATES, DIVERGED) else moment
     if first == NONE:
-        told = [declared or row.because, "none of its options tried cures it"]
+        parts = [declared or row.because, "none of its options tried cures it"]
     elif first == NOTHING:
-        told = [declared or row.because, NOTHING]
+        parts = [declared or row.because, NOTHING]
     else:
-        told = [declared, f"cured by {_cures(causes)}"]
-    return replace(row, because="; ".join(part for part in told if part))
+        parts = [declared, f"cured by {_cures(causes)}"]
+    return replace(row, because="; ".join(part for part in parts if part))
 
 
 def _cures(causes: Sequence[Cause]) -> str:
-    told = [_cure(cause) for cause in causes[:MOST]]
-    more = len(causes) - len(told)
-    return " or ".join([*told, f"{more} more"] if more else told)
+    words = [_cure(cause) for cause in causes[:MOST]]
+    more = len(causes) - len(words)
+    return " or ".join([*words, f"{more} more"] if more else words)
 
 
 def _cure(cause: Cause) -> str:

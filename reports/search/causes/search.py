@@ -102,7 +102,7 @@ def together(what: str, searches: Mapping[Key, Callable[[], T]], results: Result
                 missing |= dict.fromkeys(asked.runs, "")
         missing = {run: _key_of(*run, results) for run in missing}
         tasks = {key: Run(runs.pair, candidate) for (runs, candidate), key in missing.items()}
-        counted = _counted(results, done, left=len(searches) - len(ends))
+        counted = _counted(results, done, remaining=len(searches) - len(ends))
         answers = counted.of(what, errors, tasks) if tasks else {}
         done += len(tasks)
         for (runs, candidate), key in missing.items():
@@ -117,13 +117,13 @@ def _key_of(runs: Runs, candidate: Candidate, results: Results) -> str:
     return results.keys.tried(runs.pair.case, runs.pair.engine, text, candidate.step)
 
 
-def _counted(results: Results, done: int, *, left: int) -> Results:
+def _counted(results: Results, done: int, *, remaining: int) -> Results:
     """Progress over all rounds: a search that is not at its end asks for one more run at least."""
 
     def progress(
         what: str, now: int, of: int, last: str = "", part: float = 0.0, /
     ) -> None:  # of one round nobody can say how long all of them take
-        results.progress(what, done + now, done + of + left, last)
+        results.progress(what, done + now, done + of + remaining, last)
 
     return replace(results, progress=progress)
 
@@ -143,11 +143,11 @@ def lost(pairs: Mapping[Key, Pair], results: Results) -> dict[Key, str]:
     What passes is asked once more in this one, where the search is.
     """
     strange = {key: pair for key, pair in pairs.items() if engines.foreign(pair.engine.name)}
-    answers = results.anew("plans", _asked, strange) if strange else {}
+    answers = results.anew("plans", _try_plans, strange) if strange else {}
     return {key: died.because for key, died in answers.items() if isinstance(died, Died)}
 
 
-def _asked(pair: Pair) -> None:
+def _try_plans(pair: Pair) -> None:
     engine, scene, start = pair.engine, pair.case.scene, first(pair.reference())
     ways = planned(engine, scene, start)
     native = any(isinstance(way, Plan) and way.realised == "native" for way in ways)

@@ -50,20 +50,20 @@ class Rows:
     def _by_steps(self) -> set[Key]:
         """Returns the keys of all that smaller steps of the engine's own may bring within."""
         return {
-            (one.case, one.engine, one.setting, one.quantity)
-            for one in self.ladders
-            if one.realised == "native"
+            (ladder.case, ladder.engine, ladder.setting, ladder.quantity)
+            for ladder in self.ladders
+            if ladder.realised == "native"
             and (
-                one.usable_step
-                or one.verdict in STEPS
-                or (one.setting == "tuned" and one.verdict == UNSETTLED)
+                ladder.usable_step
+                or ladder.verdict in STEPS
+                or (ladder.setting == "tuned" and ladder.verdict == UNSETTLED)
             )
         }
 
     @cached_property
     def _tuned(self) -> Mapping[tuple[str, str, str], dict[str, Comparison]]:
-        found: dict[tuple[str, str, str], dict[str, Comparison]] = {}
+        tuned: dict[tuple[str, str, str], dict[str, Comparison]] = {}
         for row in self.comparisons:
             if row.setting == "tuned" and row.verdict == AGREES:
-                found.setdefault((row.case, row.engine, row.quantity), {})[row.realised] = row
-        return found
+                tuned.setdefault((row.case, row.engine, row.quantity), {})[row.realised] = row
+        return tuned

@@ -266,8 +266,8 @@ def test_the_step_that_is_small_enough_is_that_of_the_rows_own_ladder() -> None:
         {"usable_step": None},
     ]
     assert [enough(**other) for other in others] == [[], [], []]
-    within = "max(h for (*at, h), x in errors.items() if (*at,) == _at(row) and x <= row.allowed)"
-    hasty = otherwise(cause_rows, "step = usable.get(_at(row))", f"step = {within}")
+    within = "max(h for (*at, h), x in errors.items() if (*at,) == _key(row) and x <= row.allowed)"
+    hasty = otherwise(cause_rows, "step = usable.get(_key(row))", f"step = {within}")
     assert enough(hasty, errors=(1.0, 2.1, 0.0), usable_step=5e-4) == [(2e-3, 0.0)]
     assert enough(hasty, usable_step=5e-4) == [(1e-3, 2.0)]
 
@@ -309,8 +309,8 @@ def test_options_are_all_that_a_file_of_settings_needs() -> None:
 @pytest.mark.mutant("a cure's place by how dear it is")
 def test_the_cheapest_cure_is_first_with_its_cost_over_the_rows_own(pair: Pair) -> None:
     assert priced(pair) == [("RK4", 4.0), ("step", 8.0)]
-    was = "cost(one.options, one.step) / cost(base.options, base.step)"
-    now = "cost(base.options, base.step) / cost(one.options, one.step)"
+    was = "cost(candidate.options, candidate.step) / cost(base.options, base.step)"
+    now = "cost(base.options, base.step) / cost(candidate.options, candidate.step)"
     assert priced(pair, costs=otherwise(causes, was, now)) != priced(pair)
     dearest = otherwise(cause_rows, "lambda cure: cost(", "lambda cure: -cost(")
     assert priced(pair, rows=dearest) == priced(pair)[::-1]
@@ -371,8 +371,8 @@ def test_the_printed_cost_is_the_recipes_over_shippeds(
     monkeypatch.setattr(advice, "ratio", lambda *_: 7.5)
     monkeypatch.setattr(advice, "plain", lambda _: [])
     assert printed(advised) == "    costs ×8 of shipped, measured here ×7.5"
-    was = "one.search.cost(candidate) / one.search.cost(one.shipped)"
-    now = "one.search.cost(one.shipped) / one.search.cost(candidate)"
+    was = "advised.search.cost(candidate) / advised.search.cost(advised.shipped)"
+    now = "advised.search.cost(advised.shipped) / advised.search.cost(candidate)"
     wrong = otherwise(advice, was, now)
     wrong.ratio, wrong.plain = (lambda *_: 7.5), lambda _: []
     assert "×0.12 of shipped" in printed(advised, wrong)
