@@ -26,15 +26,15 @@ INSTANTS = 12  # decimals of a second: samples of two grids that are the same
 
 def names(cases: Sequence[Case]) -> list[str]:
     """The files of the cases. Raises CaseError where two cases would have one."""
-    found: dict[str, Case] = {}
+    by_file: dict[str, Case] = {}
     for case in cases:
         ends = ["csv", "events.csv"]
         ends += [f"poses.{ending()}"] if case.states is None else []
         for file in (f"{case.name}.{end}" for end in ends):
-            if (other := found.setdefault(file, case)) is not case:
+            if (other := by_file.setdefault(file, case)) is not case:
                 what = f"{file} would be kept of {other.name!r} and of {case.name!r}: rename one"
                 raise CaseError([Mistake(case.source.file, 0, 0, "--keep", what)])
-    return [*found]
+    return [*by_file]
 
 
 def keep(report: Report, folder: Path, *, overwrite: bool = False) -> None:
@@ -65,14 +65,14 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
     for name in (name for name in case.allow if name in known and name != MASS_MATRIX):
         unit = known[name].unit
         columns[f"{name} [{unit}] reference"] = pd.Series(
-            _turned(observe(case.scene, reference, name)), here
+            _angles(observe(case.scene, reference, name)), here
         )
-        for one in report.tried:
-            engine = one.pair.engine
-            if one.pair.case.name == case.name and name in one.outcome.samples:
-                label = f"{engine.name}.{engine.setting}.{one.realised}"
-                times = np.round(one.pair.sampled.times, INSTANTS)  # its own step's, if it has one
-                samples = one.outcome.samples[name]
+        for run in report.tried:
+            engine = run.pair.engine
+            if run.pair.case.name == case.name and name in run.outcome.samples:
+                label = f"{engine.name}.{engine.setting}.{run.realised}"
+                times = np.round(run.pair.sampled.times, INSTANTS)  # its own step's, if it has one
+                samples = run.outcome.samples[name]
                 if samples.ndim > 1:  # an attitude: by how much it is off the reference
                     label, samples = f"{label} off", np.linalg.norm(samples, axis=1)
                 columns[f"{name} [{unit}] {label}"] = pd.Series(samples, times)
@@ -84,15 +84,15 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
     return pd.DataFrame(columns).rename_axis(head).reset_index()
 
 
-def _turned(samples: Array) -> Array:
+def _angles(samples: Array) -> Array:
     """Numbers as they are; of an attitude the angle from where it began."""
     return samples if samples.ndim == 1 else apart(samples, samples[:1])
 
 
 def _events(report: Report, case: Case) -> pd.DataFrame:
-    told = ["engine", "setting", "realised", "event", "k", "time", "difference"]
+    columns = ["engine", "setting", "realised", "event", "k", "time", "difference"]
     rows = [asdict(instant) for instant in report.instants if instant.case == case.name]
-    frame = pd.DataFrame(rows, columns=told)
+    frame = pd.DataFrame(rows, columns=columns)
     return frame.rename(columns={"time": "time [s]", "difference": "difference [s]"})
 
 
@@ -114,11 +114,11 @@ def poses(report: Report, case: Case) -> pd.DataFrame:
     The reference is called `reference`, without a setting.
     """
     reference = report.solutions[case.name].trajectory.states
-    parts = list(_rows(("reference", "", ""), case, case.times, reference))
-    for one in report.tried:
-        if one.pair.case.name == case.name:
-            who = (one.pair.engine.name, one.pair.engine.setting, one.realised)
-            parts += _rows(who, case, one.pair.sampled.times, one.outcome.samples)
+    parts = list(_pose_rows(("reference", "", ""), case, case.times, reference))
+    for run in report.tried:
+        if run.pair.case.name == case.name:
+            who = (run.pair.engine.name, run.pair.engine.setting, run.realised)
+            parts += _pose_rows(who, case, run.pair.sampled.times, run.outcome.samples)
     return pd.concat(parts, ignore_index=True)[HEAD]
 
 
@@ -136,10 +136,10 @@ def filed(frame: pd.DataFrame) -> str | bytes:
     return out.getvalue()
 
 
-def _rows(
+def _pose_rows(
     who: tuple[str, str, str], case: Case, times: Array, samples: Samples
 ) -> Iterator[pd.DataFrame]:
     for body in case.scene.bodies:
         for field, unit, column in COLUMNS[case.scene.frame] if body in samples else ():
-            told = dict(zip(HEAD, (*who, body, field, unit), strict=False))
-            yield pd.DataFrame({**told, "t [s]": times, "value": samples[body][:, column]})
+            labels = dict(zip(HEAD, (*who, body, field, unit), strict=False))
+            yield pd.DataFrame({**labels, "t [s]": times, "value": samples[body][:, column]})

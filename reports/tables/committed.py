@@ -41,36 +41,36 @@ def key_of(row: Comparison) -> Key:
 
 def committed_causes() -> Known:
     """The causes, and the verdicts that they belong to; nothing where they cannot be read."""
-    found: dict[tuple[str, str, str, str], list[Cause]] = {}
+    by_row: dict[tuple[str, str, str, str], list[Cause]] = {}
     with suppress(OSError, ValueError):  # cut, or half of a merge: then all are searched anew
         for cause in read(CAUSES, Cause):
             key = cause.case, cause.engine, cause.setting, cause.quantity
-            found.setdefault(key, []).append(cause)
-        return Known(found, {key: row.verdict for key, row in rows().items()})
+            by_row.setdefault(key, []).append(cause)
+        return Known(by_row, {key: row.verdict for key, row in rows().items()})
     return Known()
 
 
 def before(case: Case | ModelCase, key: Key, version: str, step: float | None) -> Comparison | None:
     """Returns the committed row of the same question; None: another case, version or step."""
-    found = rows().get(key)
-    if found is None or found.version != version or not is_shipped(case.source.file):
+    row = rows().get(key)
+    if row is None or row.version != version or not is_shipped(case.source.file):
         return None
-    if step and found.step and abs(step - found.step) > SAME_STEP * step:
+    if step and row.step and abs(step - row.step) > SAME_STEP * step:
         return None
-    return found
+    return row
 
 
 def worse(case: Case | ModelCase, row: Comparison) -> str:
     """How a row is worse than the committed one, in words; or nothing."""
-    found = before(case, key_of(row), row.version, row.step)
-    if found is None:
+    old = before(case, key_of(row), row.version, row.step)
+    if old is None:
         return ""
-    if rank(row.verdict) > rank(found.verdict):
-        return f"the committed report says: {found.verdict}"
-    if found.error is None or row.error is None:
+    if rank(row.verdict) > rank(old.verdict):
+        return f"the committed report says: {old.verdict}"
+    if old.error is None or row.error is None:
         return ""
     least = ROUNDING if row.setting == "tuned" else USELESS
-    bar = WORSE * max(found.error, least * (row.allowed or 0.0))
+    bar = WORSE * max(old.error, least * (row.allowed or 0.0))
     if not row.error <= bar:
-        return f"{row.error:.3g} is above {WORSE} × the committed {found.error:.3g}"
+        return f"{row.error:.3g} is above {WORSE} × the committed {old.error:.3g}"
     return ""

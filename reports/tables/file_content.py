@@ -17,17 +17,17 @@ def content(path: Path, most: int = LARGEST, *, links: bool = True) -> bytes:
     flags = os.O_RDONLY | sum(getattr(os, name, 0) for name in _FLAGS)
     held = os.open(path, flags if links else flags | getattr(os, "O_NOFOLLOW", 0))
     with open(held, "rb", buffering=0) as file:
-        found = os.fstat(held)
-        if not stat.S_ISREG(found.st_mode):
+        status = os.fstat(held)
+        if not stat.S_ISREG(status.st_mode):
             raise OSError(errno.EINVAL, "is no file", str(path))
         data = bytearray()
         while len(data) <= most:  # what says 0 bytes, as in /proc, may have more, and no end
-            if not (more := file.read(max(1, min(most + 1 - len(data), found.st_size + 1)))):
+            if not (more := file.read(max(1, min(most + 1 - len(data), status.st_size + 1)))):
                 break
             data += more
         if len(data) > most:
-            told = f"{found.st_size / 1e6:.0f} MB, at most {most / 1e6:.0f}"
-            raise OSError(errno.EFBIG, f"is too large: {told}", str(path))
+            size = f"{status.st_size / 1e6:.0f} MB, at most {most / 1e6:.0f}"
+            raise OSError(errno.EFBIG, f"is too large: {size}", str(path))
     return bytes(data)
 
 

@@ -61,9 +61,9 @@ def unkept(case: Case, rows: Iterable[Comparison]) -> Iterator[str]:
     for engine, ways in engines.items():
         if not any(setting == OURS for setting, _ in ways):
             continue
-        told = {way: worst for way, found in ways.items() if (worst := _worst(found)) is not None}
-        if told and not any(_kept(found) for found in ways.values()):
-            (setting, how), row = min(told.items(), key=lambda one: one[1].ratio or 0.0)
+        worsts = {way: worst for way, group in ways.items() if (worst := _worst(group)) is not None}
+        if worsts and not any(_keeps(group) for group in ways.values()):
+            (setting, how), row = min(worsts.items(), key=lambda item: item[1].ratio or 0.0)
             name = f"{engine}.{setting}" if how == "native" else f"{engine}.{setting} ({how})"
             step = "" if row.step is None else f" at {row.step:g} s"
             nearest = f"{name}, {row.quantity} ×{row.ratio:.2g}{step}"
@@ -86,19 +86,19 @@ def _judged(rows: Iterable[Comparison]) -> list[Comparison]:
     return [row for row in rows if row.verdict != REFUSED]
 
 
-def _kept(rows: Iterable[Comparison]) -> bool:
-    found = _judged(rows)
-    return bool(found) and all(map(_within, found))
+def _keeps(rows: Iterable[Comparison]) -> bool:
+    judged = _judged(rows)
+    return bool(judged) and all(map(_is_within, judged))
 
 
-def _within(row: Comparison) -> bool:
+def _is_within(row: Comparison) -> bool:
     """Whether the tolerance is kept, be it that something else that was declared is not."""
     return row.verdict in (AGREES, DEVIATES) or (row.ratio is not None and row.ratio <= 1)
 
 
 def _worst(rows: Iterable[Comparison]) -> Comparison | None:
     """The one farthest off; None where one has no number, as of what diverged."""
-    found = _judged(rows)
-    if not found or any(row.ratio is None or row.ratio != row.ratio for row in found):
+    judged = _judged(rows)
+    if not judged or any(row.ratio is None or row.ratio != row.ratio for row in judged):
         return None
-    return max(found, key=lambda row: row.ratio or 0.0)
+    return max(judged, key=lambda row: row.ratio or 0.0)

@@ -50,7 +50,7 @@ def listed(tables: Mapping[str, tuple[int, str]], folder: Path | None) -> str:
     out = StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(HEAD)
-    writer.writerows((name, one.rows, one.run, one.content) for name, one in sorted(rows.items()))
+    writer.writerows((name, row.rows, row.run, row.content) for name, row in sorted(rows.items()))
     return out.getvalue()
 
 
@@ -65,13 +65,13 @@ def read(folder: Path) -> dict[str, Written]:
         raise ValueError(f"{path}: is no CSV: {error}") from None
     if not lines or tuple(lines[0]) != HEAD:
         raise ValueError(f"{path}: its first line should be {','.join(HEAD)}")
-    found: dict[str, Written] = {}
+    by_name: dict[str, Written] = {}
     for line, cells in enumerate(lines[1:], start=2):
         if len(cells) != len(HEAD) or not all(map(_fits, _CELLS, cells)):
             raise ValueError(f"{path}: line {line}: should be a file, a count and two digests")
         name, count, run, held = cells
-        found[name] = Written(int(count), run, held)
-    return found
+        by_name[name] = Written(int(count), run, held)
+    return by_name
 
 
 def table(path: Path) -> list[dict[str, str]]:

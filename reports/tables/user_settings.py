@@ -26,7 +26,7 @@ def read_settings(file: Path, offered: Sequence[str], *, long: bool = False) -> 
 
 def made(document: Document, setting: str, *, long: bool = False) -> dict[str, Engine]:
     """Engines with the options of a document, by name. Raises CaseError."""
-    mistakes, found = list(document.mistakes), {}
+    mistakes, made_engines = list(document.mistakes), {}
     for name, options in document.data.items():
         if name not in engines.names():
             what = f"no such engine{nearest(name, engines.names())}"
@@ -37,10 +37,10 @@ def made(document: Document, setting: str, *, long: bool = False) -> dict[str, E
         elif endless := [*_endless(document.source, name, options, long=long)]:
             mistakes += endless
         else:
-            mistakes += _options(document.source, (name, setting), options, found)
+            mistakes += _options(document.source, (name, setting), options, made_engines)
     if mistakes:
         raise CaseError(mistakes)
-    return found
+    return made_engines
 
 
 def _endless(
@@ -67,14 +67,14 @@ def _words(options: Any) -> Iterator[str]:
 
 
 def _options(
-    source: Source, key: tuple[str, str], options: Mapping[str, Any], found: dict[str, Engine]
+    source: Source, key: tuple[str, str], options: Mapping[str, Any], chosen: dict[str, Engine]
 ) -> list[Mistake]:
     name, setting = key
     if hidden := [word for word in _words(options) if len(word.splitlines()) > 1]:
         what = "unknown option: a name is one line"  # and so is a mistake, as an engine tells it
         return [source.mistake((name, word), what) for word in hidden]
     try:
-        found[name] = engines.make(name, setting, options)
+        chosen[name] = engines.make(name, setting, options)
     except engines.Broken as broken:
         return [source.mistake((name,), str(broken))]
     except ValueError as error:

@@ -57,7 +57,7 @@ def by_default() -> Path:
 
 def tables(report: Rows, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
     """Each report by its file name."""
-    found = (
+    frames = (
         _table(report.comparisons, Comparison),
         _table(report.rungs, Rungs),
         _table(report.steps, StepError),
@@ -67,7 +67,7 @@ def tables(report: Rows, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
         coverage(cases, report.equations),
         _table(report.lines, ModelLine),
     )
-    return dict(zip(NAMES, found, strict=True))
+    return dict(zip(NAMES, frames, strict=True))
 
 
 def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certificate]:
@@ -86,14 +86,14 @@ def _as_known(rows: Sequence[Certificate], cases: Sequence[Case]) -> list[Certif
         if row.certified is None
         else changed(
             row,
-            certified=_known(row.certified, least.get((row.case, row.check), 0.0)),
-            difference=_known(row.difference, 0.0),
+            certified=_bound(row.certified, least.get((row.case, row.check), 0.0)),
+            difference=_bound(row.difference, 0.0),
         )
         for row in rows
     ]
 
 
-def _known(error: float, least: float) -> float:
+def _bound(error: float, least: float) -> float:
     at_least = max(error, least)
     if not 0.0 < at_least < math.inf:
         return at_least

@@ -129,14 +129,14 @@ def difference(old: Folder, new: Folder, rule: Rule, *, whole: bool = False) -> 
     for columns in (KNOWN[name] for name in KNOWN if name in old.tables and name in new.tables):
         tables = old.tables[columns.name], new.tables[columns.name]
         rows = [[row for row in table if looked_at(row)] for table in tables]
-        left = len(tables[0]) - len(rows[0]), len(tables[1]) - len(rows[1])
+        unpaired = len(tables[0]) - len(rows[0]), len(tables[1]) - len(rows[1])
         searched = _searched(rows) if columns is CAUSES else rows
         unsearched = len(rows[0]) - len(searched[0]), len(rows[1]) - len(searched[1])
         if columns is COVERED:
             searched = [[_by_cases(row, cases) for row in some] for some in rows]
         before, after = ({columns.key(row): row for row in some} for some in searched)
         changes += _merged(columns, before, after, rule, allowed)
-        counts[columns.name] = Counts(len(before.keys() & after.keys()), left, unsearched)
+        counts[columns.name] = Counts(len(before.keys() & after.keys()), unpaired, unsearched)
     changes.sort(key=lambda change: KINDS.index(change.kind))
     alone = tuple(sorted(old.tables.keys() ^ new.tables.keys()))
     return Difference(old, new, rule, cases, engines, tuple(changes), counts, alone)
@@ -163,8 +163,8 @@ def _searched(rows: Sequence[Sequence[Row]]) -> list[list[Row]]:
     def question(row: Row) -> Key:
         return tuple(row[name] for name in ("case", "engine", "setting", "quantity"))
 
-    left = {question(row) for some in rows for row in some if row["cure"] == UNSEARCHED}
-    return [[row for row in some if question(row) not in left] for some in rows]
+    unsearched = {question(row) for some in rows for row in some if row["cure"] == UNSEARCHED}
+    return [[row for row in some if question(row) not in unsearched] for some in rows]
 
 
 def _merged(

@@ -33,19 +33,19 @@ SPECIAL = str.maketrans(
 )
 
 
-def text(found: Difference, *, width: int = WIDTH, every: bool = False) -> str:
+def text(difference: Difference, *, width: int = WIDTH, every: bool = False) -> str:
     """Returns the difference in lines of at most `width` columns, or of 40 if that is less.
 
     every: all changes are shown, and not the first of a kind.
     """
-    lines = [*looked_at(found)]
-    for _, title, places, left in _sections(found, None if every else MOST):
+    lines = [*looked_at(difference)]
+    for _, title, places, hidden in _sections(difference, None if every else MOST):
         lines += ["", title]
-        for (case, column, file), told in places:
+        for (case, column, file), changes in places:
             lines.append(f"  {' '.join(filter(None, (case, column)))}  [{file}]")
-            lines += [f"    {names}: {said}" for names, said in told]
-        lines += [f"  and {left} more: --all shows them"] if left else []
-    lines += ["", _summary(found)]
+            lines += [f"    {names}: {said}" for names, said in changes]
+        lines += [f"  and {hidden} more: --all shows them"] if hidden else []
+    lines += ["", _summary(difference)]
     return "\n".join(part for line in lines for part in fitted(line, width))
 
 
@@ -56,20 +56,20 @@ def fitted(line: str, width: int) -> list[str]:
     return wrap(line, max(width, 40), subsequent_indent=further, break_on_hyphens=False) or [""]
 
 
-def markdown(found: Difference, *, every: bool = False) -> str:
+def markdown(difference: Difference, *, every: bool = False) -> str:
     """Returns the difference for a pull request: regressions open, all else folded.
 
     every: all changes are shown, and not the first of a kind.
     """
-    lines = [f"### {'❌' if found.regressed else '✅'} textmech: {_summary(found)}", ""]
-    lines += [f"- {_plain(line)}" for line in looked_at(found)]
-    for kind, title, places, left in _sections(found, None if every else LISTED):
+    lines = [f"### {'❌' if difference.regressed else '✅'} textmech: {_summary(difference)}", ""]
+    lines += [f"- {_plain(line)}" for line in looked_at(difference)]
+    for kind, title, places, hidden in _sections(difference, None if every else LISTED):
         folded = kind != WORSE
         lines += ["", f"<details><summary>{title}</summary>" if folded else f"**{title}**", ""]
         lines += [_cells(HEAD), _cells(["---"] * len(HEAD))]
-        for (case, column, file), told in places:
-            lines += [_cells(map(_plain, (case, column, *said, file))) for said in told]
-        lines += ["", f"and {left} more"] if left else []
+        for (case, column, file), changes in places:
+            lines += [_cells(map(_plain, (case, column, *said, file))) for said in changes]
+        lines += ["", f"and {hidden} more"] if hidden else []
         lines += ["", "</details>"] if folded else []
     return "\n".join([*lines, ""])
 
@@ -83,25 +83,25 @@ def _plain(text: str) -> str:
     return " ".join(text.split()).translate(SPECIAL)
 
 
-def as_json(found: Difference) -> str:
+def as_json(difference: Difference) -> str:
     """Returns the whole difference as JSON text; a number that JSON has not (inf, NaN) is null."""
     sides = {
         side: {"folder": folder.name, "run": folder.run, "versions": folder.versions}
-        for side, folder in (("old", found.old), ("new", found.new))
+        for side, folder in (("old", difference.old), ("new", difference.new))
     }
     names = "compared", "not looked at", "not searched by both"
     document = {
         **sides,
-        "rule": asdict(found.rule),
-        "regressed": found.regressed,
-        "counts": {kind: len(found.of(kind)) for kind in KINDS},
+        "rule": asdict(difference.rule),
+        "regressed": difference.regressed,
+        "counts": {kind: len(difference.of(kind)) for kind in KINDS},
         "rows": {
-            file: dict(zip(names, count, strict=True)) for file, count in found.counts.items()
+            file: dict(zip(names, count, strict=True)) for file, count in difference.counts.items()
         },
-        "files of one folder": list(found.alone),
-        "changes": [_change(change) for change in found.changes],
+        "files of one folder": list(difference.alone),
+        "changes": [_change(change) for change in difference.changes],
         "mistakes": [],
-        "exit_code": int(found.regressed),
+        "exit_code": int(difference.regressed),
     }
     return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
 
@@ -125,32 +125,32 @@ def _finite(number: float | None) -> float | None:
     return None if number is None or not isfinite(number) else number
 
 
-def looked_at(found: Difference) -> Iterator[str]:
+def looked_at(difference: Difference) -> Iterator[str]:
     """Yields which folders there are, how many rows were compared, and what was not, and why."""
-    counts = found.counts.values()
-    sides = ("OLD", found.old), ("NEW", found.new)
+    counts = difference.counts.values()
+    sides = ("OLD", difference.old), ("NEW", difference.new)
     for side, folder in sides:
         engines = ", ".join(f"{engine} {version}" for engine, version in folder.versions.items())
         yield f"{side} {folder.name}: run {folder.run}, {engines or 'no engine'}"
     rows = sum(count.compared for count in counts)
-    cases, columns = len(found.cases), len(found.engines)
+    cases, columns = len(difference.cases), len(difference.engines)
     yield f"compared: {_many(rows, 'row')} of {_many(cases, 'case')} in {_many(columns, 'column')}"
     for i, (side, folder) in enumerate(sides):
-        if left := sum(count.left[i] for count in counts):
-            yield f"not looked at: {_many(left, 'row')} of {side}: {_why(found, folder)}"
-    for name, count in found.counts.items():
+        if skipped := sum(count.left[i] for count in counts):
+            yield f"not looked at: {_many(skipped, 'row')} of {side}: {_why(difference, folder)}"
+    for name, count in difference.counts.items():
         if any(count.searched):
             old, new = count.searched
             of_both = f"{_many(old, 'row')} of OLD and {new} of NEW in {name}"
             yield f"not looked at: {of_both}: one of the runs, or both, did not search for causes"
-    for name in found.alone:
-        side = "OLD" if name in found.old.tables else "NEW"
+    for name in difference.alone:
+        side = "OLD" if name in difference.old.tables else "NEW"
         yield f"not looked at: {name}, which only {side} has"
 
 
-def _why(found: Difference, folder: Folder) -> str:
-    cases = sorted(folder.cases - found.cases)
-    columns = sorted(".".join(engine) for engine in folder.engines - found.engines)
+def _why(difference: Difference, folder: Folder) -> str:
+    cases = sorted(folder.cases - difference.cases)
+    columns = sorted(".".join(engine) for engine in folder.engines - difference.engines)
     named = [f"case {_first(cases)}"] * bool(cases) + [f"column {_first(columns)}"] * bool(columns)
     if not named:
         return "of cases that its tolerance.csv does not name"
@@ -166,21 +166,21 @@ def _many(count: int, what: str) -> str:
     return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
-def _summary(found: Difference) -> str:
+def _summary(difference: Difference) -> str:
     """Returns `2 regressions, 3 better, 24 changed`, or that nothing is."""
-    counts = ((kind, len(found.of(kind))) for kind in KINDS)
-    told = [f"{n} {kind if n == 1 else PLURALS[kind]}" for kind, n in counts if n]
-    return ", ".join(told) or "nothing changed"
+    counts = ((kind, len(difference.of(kind))) for kind in KINDS)
+    parts = [f"{n} {kind if n == 1 else PLURALS[kind]}" for kind, n in counts if n]
+    return ", ".join(parts) or "nothing changed"
 
 
 Neighbours = list[tuple[tuple[str, str, str], list[tuple[str, str]]]]
 """By case, column and file what is said: names and a sentence."""
 
 
-def _sections(found: Difference, most: int | None) -> Iterator[tuple[str, str, Neighbours, int]]:
+def _sections(changed: Difference, most: int | None) -> Iterator[tuple[str, str, Neighbours, int]]:
     """Yields each kind that there is, its title, the first changes, and how many are left out."""
     for kind in KINDS:
-        if changes := found.of(kind):
+        if changes := changed.of(kind):
             shown = changes[:most]
             title = f"{TITLES[kind]} ({len(changes)})"
             yield kind, title, _neighbours(shown), len(changes) - len(shown)
@@ -188,13 +188,13 @@ def _sections(found: Difference, most: int | None) -> Iterator[tuple[str, str, N
 
 def _neighbours(changes: Iterable[Change]) -> Neighbours:
     """Sorts changes by their places; names of one sentence stand together."""
-    found: Neighbours = []
+    neighbours: Neighbours = []
     for place, some in groupby(changes, key=lambda c: (*c.place[:2], c.file)):
         names: dict[str, list[str]] = {}
         for change in some:
             names.setdefault(_sentence(change), []).append(change.place[2])
-        found.append((place, [(", ".join(what), said) for said, what in names.items()]))
-    return found
+        neighbours.append((place, [(", ".join(what), said) for said, what in names.items()]))
+    return neighbours
 
 
 def _sentence(change: Change) -> str:
@@ -216,8 +216,8 @@ def _sentence(change: Change) -> str:
 def _numbers(change: Change) -> str:
     """Returns `0.0021 → 0.0042 rad ×2, allowed 0.001`, as far as there are numbers."""
     contents = [content for content in (change.old, change.new) if content]
-    told = ["" if content.number is None else f"{content.number:.9g}" for content in contents]
-    text = told[0] if len({*told}) == 1 else " → ".join(word or "none" for word in told)
+    numbers = ["" if content.number is None else f"{content.number:.9g}" for content in contents]
+    text = numbers[0] if len({*numbers}) == 1 else " → ".join(word or "none" for word in numbers)
     if not text:
         return ""
     label = f"{change.label} " if change.label else ""

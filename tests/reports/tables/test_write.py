@@ -245,7 +245,7 @@ def test_poses_are_told_at_the_engines_own_samples(moving: Case) -> None:
     own = replace(moving, duration=0.9, samples=moving.samples)
     assert times(moving, own) == pytest.approx(own.times.tolist())
     other = otherwise(
-        motion_files, "one.pair.sampled.times, one.outcome", "case.times, one.outcome"
+        motion_files, "run.pair.sampled.times, run.outcome", "case.times, run.outcome"
     )
     assert times(moving, own, other) == pytest.approx(moving.times.tolist())
 
@@ -294,7 +294,7 @@ def test_a_share_of_a_bound_is_a_power_of_ten() -> None:
         return module._as_known([row], [])[0].difference
 
     assert [share(of) for of in (0.0, 0.001, 0.002, 0.004)] == pytest.approx([0, 1e-3, 1e-2, 1e-2])
-    digits = otherwise(write, "difference=_known(row.difference, 0.0)", "difference=row.difference")
+    digits = otherwise(write, "difference=_bound(row.difference, 0.0)", "difference=row.difference")
     assert share(0.002, digits) == 0.002
 
 

@@ -42,7 +42,7 @@ def test_the_document_says_the_exit_code_of_the_command(tmp_path: Path) -> None:
     assert document(found(tmp_path / "same", {}, {})) == 0
     done = textmech("diff", tmp_path / "old", tmp_path / "new", "--json")
     assert (done.returncode, json.loads(done.stdout)["exit_code"]) == (1, 1)
-    assert document(changed, otherwise(forms, "int(found.regressed)", "0")) == 0
+    assert document(changed, otherwise(forms, "int(difference.regressed)", "0")) == 0
 
 
 @pytest.mark.mutant("rows judged by what the old run allowed")
