@@ -110,8 +110,8 @@ def digest(task: Task) -> str | CaseError:
     """
     try:
         own = opened(task.case).own
-        told = f"{VERSION} {own.places}".encode()
-        return sha256(told + image(own.model)).hexdigest()
+        head = f"{VERSION} {own.places}".encode()
+        return sha256(head + image(own.model)).hexdigest()
     except CaseError as error:
         return error
 

@@ -56,7 +56,7 @@ class Request:
 
 
 def requested(
-    found: Sequence[Case],
+    chosen: Sequence[Case],
     names: Sequence[str],
     settings: Sequence[str],
     *,
@@ -74,8 +74,8 @@ def requested(
     """
     with warnings.catch_warnings(record=True) as broken:
         engines = [*choose_engines(names, settings, long=long), *own]
-    mistakes = [*mistakes, *too_long(found, engines)]
-    cases = sound(found, mistakes)
+    mistakes = [*mistakes, *too_long(chosen, engines)]
+    cases = sound(chosen, mistakes)
     stepped = settings_of(engines) if models else None
     if models and not stepped:
         mistakes += [Mistake(model.file, 0, 0, "", NO_ENGINE) for model in models]
@@ -90,10 +90,10 @@ def requested(
         raise CaseError(mistakes)
     book = choose_book(names, settings)
     silent = _silent(cases, engines, book=book) if cases else ""
-    told = [f"warning: {warning.message}" for warning in broken]
-    told += [silent] if silent and named else []
+    remarks = [f"warning: {warning.message}" for warning in broken]
+    remarks += [silent] if silent and named else []
     return Request(
-        cases, engines, book, mistakes, told, models=models, model_settings=stepped or Settings()
+        cases, engines, book, mistakes, remarks, models=models, model_settings=stepped or Settings()
     )
 
 

@@ -195,18 +195,18 @@ def choose_engines(
     engine that nobody named and that cannot be imported is a warning.
     """
     for word in names:
-        _known(word)
+        _check_name(word)
     offers = _offers({word.partition(".")[0] for word in names if word != BOOK})
     every = {setting for offered in offers.values() for setting in offered}
     for word in names:
         _offered(word, offers, [Path(word).stem for word in settings if word not in every])
     named = [word for word in settings if word in every] or every
-    found = [
+    chosen = [
         engine
         for name, offered in offers.items()
         for setting in offered
         if setting in named and (not names or name in names or f"{name}.{setting}" in names)
-        if (engine := _made(name, setting, asked=bool(names))) is not None
+        if (engine := _make_engine(name, setting, asked=bool(names))) is not None
     ]
     for file in _files([word for word in settings if word not in every], every):
         own = read_settings(file, sorted(every), long=long)
@@ -219,11 +219,11 @@ def choose_engines(
             of = ", ".join(f"{name}.{file.stem}" for name in own) or "no engine"
             what = f"no chosen engine uses it, which is for {of}"
             raise CaseError([Mistake("--settings", 0, 0, str(file), what)])
-        found += used
-    if not found and not choose_book(names, settings):
+        chosen += used
+    if not chosen and not choose_book(names, settings):
         what = f"with --settings {', '.join(settings)} no engine is left"
         raise CaseError([Mistake("--engine", 0, 0, ", ".join(names), what)])
-    return found
+    return chosen
 
 
 def _files(words: Sequence[str], taken: Set[str]) -> list[Path]:
@@ -267,7 +267,7 @@ def choose_book(names: Sequence[str], settings: Sequence[str]) -> bool:
     return BOOK in names or not (names or settings)
 
 
-def _known(word: str) -> None:
+def _check_name(word: str) -> None:
     """Raises CaseError for a name that no installed engine has; its setting is not asked yet."""
     name, _, setting = word.partition(".")
     if word == BOOK or name in engines.names():
@@ -277,16 +277,16 @@ def _known(word: str) -> None:
     raise CaseError([Mistake("--engine", 0, 0, word, f"no such engine{nearest(word, hints)}")])
 
 
-def _made(name: str, setting: str, *, asked: bool) -> Engine | None:
+def _make_engine(name: str, setting: str, *, asked: bool) -> Engine | None:
     """The engine; one that cannot be made is a mistake if it is asked for, else a warning."""
     try:
         return engines.make(name, setting)
     except engines.Broken as broken:
-        _lost(name, broken, asked=asked)
+        _tell_broken(name, broken, asked=asked)
         return None
 
 
-def _lost(name: str, broken: engines.Broken, *, asked: bool) -> None:
+def _tell_broken(name: str, broken: engines.Broken, *, asked: bool) -> None:
     if asked:
         raise CaseError([Mistake("--engine", 0, 0, name, str(broken))]) from None
     warnings.warn(str(broken), stacklevel=4)
@@ -301,7 +301,7 @@ def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
             try:
                 offers[name] = engines.settings(name)
             except engines.Broken as broken:
-                _lost(name, broken, asked=bool(asked))
+                _tell_broken(name, broken, asked=bool(asked))
     doing("")
     return offers
 

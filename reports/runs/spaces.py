@@ -96,21 +96,21 @@ def space_case(
         (case,) = load_document(document, Path(name), engines=known, long=long)
         return case
 
-    def sound(found: Read) -> Read:
-        if found.refused:
-            raise CaseError([Mistake(file, 0, 0, place, what) for place, what in found.refused])
-        return found
+    def sound(entries: Read) -> Read:
+        if entries.refused:
+            raise CaseError([Mistake(file, 0, 0, place, what) for place, what in entries.refused])
+        return entries
 
-    found = sound(read(space))
+    entries = sound(read(space))
     try:
         while True:
-            case = loaded(found.data())
+            case = loaded(entries.data())
             motion = motion_of(case)(np.linspace(0.0, case.duration, LOOKS))
-            before, found = found, sound(found.seen(case.scene, motion))
-            if found is before:
+            before, entries = entries, sound(entries.seen(case.scene, motion))
+            if entries is before:
                 break
         ajar = OPEN * size_of(case)
-        return loaded(found.claims(case.scene, motion, ajar, partial(stays, case, motion)))
+        return loaded(entries.claims(case.scene, motion, ajar, partial(stays, case, motion)))
     except CaseError as error:
         raise CaseError(
             [replace(each, where=_place(each.where)) for each in error.mistakes]

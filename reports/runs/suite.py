@@ -99,8 +99,8 @@ def measure(request: Request, explain: Explain | None = None) -> Report:
             _solve(cases, results, report)
             paired = [pair for pair in pairs if pair.case.name in report.solutions]
             references = {name: solved.trajectory for name, solved in report.solutions.items()}
-            for one in tried(paired, references, results):
-                _take(one, report)
+            for run in tried(paired, references, results):
+                _take(run, report)
             if explain:
                 explain(paired, results, report)
     return report
@@ -119,8 +119,8 @@ def _take_models(request: Request, results: Results, report: Report) -> None:
 
 def _solve(cases: Sequence[Case], results: Results, report: Report) -> None:
     keys = {case.name: results.keys.solution(case) for case in cases}
-    found = results.of("references", solved, {keys[case.name]: case for case in cases})
-    answers = {case.name: found[keys[case.name]] for case in cases}
+    solutions = results.of("references", solved, {keys[case.name]: case for case in cases})
+    answers = {case.name: solutions[keys[case.name]] for case in cases}
     report.mistakes += [m for case in cases for m in _wrong(case, answers[case.name])]
     report.cases = sound(cases, report.mistakes)
     if not report.cases:
@@ -140,17 +140,17 @@ def _wrong(case: Case, answer: Solution | CaseError | Died) -> list[Mistake]:
     return mistakes_of(case, answer)
 
 
-def _take(one: Tried, report: Report) -> None:
-    solution = report.solutions[one.pair.case.name]
-    outcome = one.outcome
+def _take(run: Tried, report: Report) -> None:
+    solution = report.solutions[run.pair.case.name]
+    outcome = run.outcome
     if not solution.holds:
         outcome = failing(outcome, uncertified(solution))
-    outcome = replace(outcome, rows=answered(one.pair.case, outcome.rows))
+    outcome = replace(outcome, rows=answered(run.pair.case, outcome.rows))
     report.comparisons += outcome.rows
     report.rungs += outcome.rungs
     report.steps += outcome.steps
     report.instants += outcome.instants
-    report.tried.append(replace(one, outcome=outcome))
+    report.tried.append(replace(run, outcome=outcome))
 
 
 def _certificates(case: Case, solution: Solution) -> list[Certificate]:

@@ -77,18 +77,18 @@ class Results:
         keep: whether the results are stored as they come, also where the rest is interrupted.
         """
         total = len(tasks) if of is None else of
-        done, found, keys = total - len(tasks), dict[Any, Any](), list(tasks)
+        done, results, keys = total - len(tasks), dict[Any, Any](), list(tasks)
         whole, finished = sum(map(_work, tasks.values())) or 1.0, 0.0
         unkept, since = dict[str, Any](), time.monotonic()
 
         def tell(last: str = "") -> None:
-            self.progress(what, done + len(found), total, last, finished / whole)
+            self.progress(what, done + len(results), total, last, finished / whole)
 
         tell()
         try:
             for index, result in spread(function, list(tasks.values()), self.executor, tell):
                 key = keys[index]
-                found[key] = result
+                results[key] = result
                 finished += _work(tasks[key])
                 if keep and not isinstance(result, Died | CaseError):
                     unkept[key] = result
@@ -98,7 +98,7 @@ class Results:
                 tell(getattr(tasks[key], "name", ""))
         finally:
             self.keep(unkept)
-        return found
+        return results
 
 
 def mistakes_of(case: Case, answer: object) -> list[Mistake]:

@@ -129,8 +129,8 @@ def planned(pair: Pair) -> tuple[Way, ...]:
     start = first(pair.reference())
     if pair.case.states is not None:
         return states.ways(pair.engine, pair.case, start)
-    found = ways(pair.engine, pair.case.scene, start)
-    return with_room(found, pair.case, pair.engine)
+    possible = ways(pair.engine, pair.case.scene, start)
+    return with_room(possible, pair.case, pair.engine)
 
 
 def judged(climb: Climb) -> Outcome:
@@ -161,11 +161,11 @@ def _at_own_samples(case: Case) -> tuple[Solution, set[str]]:
         return solve(case), set()
     except CaseError as error:
         bars = [m.where.split(".", 1) for m in error.mistakes]
-        told = {rest if bar == "allow" else rest.partition(".")[2] for bar, rest in bars}
+        named = {rest if bar == "allow" else rest.partition(".")[2] for bar, rest in bars}
         if not all(bar in ("allow", "reach") for bar, _ in bars):
             raise
-        less = {name: None if name in told else bar for name, bar in case.allow.items()}
-        return solve(replace(case, allow=less, reach={}, deviates={})), told
+        less = {name: None if name in named else bar for name, bar in case.allow.items()}
+        return solve(replace(case, allow=less, reach={}, deviates={})), named
 
 
 @lru_cache(AT_HAND)

@@ -29,11 +29,11 @@ class Tried:
 def tried(pairs: Sequence[Pair], references: References, results: Results) -> list[Tried]:
     """Every way of every engine, in the order of the pairs."""
     asked = {results.keys.ways(pair.case, pair.engine): pair for pair in pairs}
-    found = {key: kept for key, pair in asked.items() if (kept := _stored(key, pair, results))}
-    left = {key: pair for key, pair in asked.items() if key not in found}
-    if left:
-        found |= _computed(left, references, results)
-    return [one for key in asked for one in found[key]]
+    by_key = {key: kept for key, pair in asked.items() if (kept := _stored(key, pair, results))}
+    remaining = {key: pair for key, pair in asked.items() if key not in by_key}
+    if remaining:
+        by_key |= _computed(remaining, references, results)
+    return [run for key in asked for run in by_key[key]]
 
 
 def _stored(key: str, pair: Pair, results: Results) -> list[Tried]:
@@ -56,20 +56,20 @@ def _computed(
     mine: dict[str, list[str]] = {key: [] for key in pairs}
     planned_ways: dict[str, tuple[Realised, ...]] = {}
     for key, pair in pairs.items():
-        found = ways[key]
-        died = isinstance(found, Died)
-        for way in (Refusal("native", found.because),) if died else found:
+        answer = ways[key]
+        died = isinstance(answer, Died)
+        for way in (Refusal("native", answer.because),) if died else answer:
             name = results.keys.outcome(key, way.realised)
             units[name] = Unit(pair, way)
             mine[key].append(name)
-            gone |= {name: found} if died else {}
+            gone |= {name: answer} if died else {}
         if not died:
-            planned_ways[key] = tuple(way.realised for way in found)
+            planned_ways[key] = tuple(way.realised for way in answer)
     results.keep(planned_ways)
     outcomes = results.stored(units)
-    left = {name: unit for name, unit in units.items() if name not in {**outcomes, **gone}}
-    outcomes |= gone | _run(left, references, results)
-    return {key: [_tried(units[n], outcomes[n], references) for n in mine[key]] for key in pairs}
+    remaining = {name: unit for name, unit in units.items() if name not in {**outcomes, **gone}}
+    outcomes |= gone | _run(remaining, references, results)
+    return {key: [_as_tried(units[n], outcomes[n], references) for n in mine[key]] for key in pairs}
 
 
 def _run(
@@ -87,20 +87,20 @@ def _run(
             rungs[name], places[name] = rung, (key, at)
     longest = sorted(rungs.items(), key=lambda item: -item[1].steps)
     samples = results.of("engines", climbed, dict(longest))
-    found: dict[str, dict[At, Climbed]] = {key: {} for key in units}
+    by_unit: dict[str, dict[At, Climbed]] = {key: {} for key in units}
     gone: dict[str, Died] = {}
     for name, (key, at) in places.items():
-        found[key][at] = samples[name]
+        by_unit[key][at] = samples[name]
         if isinstance(samples[name], Died):
             gone.setdefault(key, samples[name])
-    climbs = {key: Climb(units[key], found[key]) for key in units if key not in gone}
+    climbs = {key: Climb(units[key], by_unit[key]) for key in units if key not in gone}
     outcomes = results.of("rows", judged, climbs)
     whole = {key for key, outcome in outcomes.items() if isinstance(outcome, Outcome)}
     results.store.drop(name for name, (key, _) in places.items() if key in whole)
     return outcomes | gone
 
 
-def _tried(unit: Unit, outcome: Outcome | Died, references: References) -> Tried:
+def _as_tried(unit: Unit, outcome: Outcome | Died, references: References) -> Tried:
     if isinstance(outcome, Died):
         pair, because = unit.pair, outcome.because
         refused = Refusal(unit.realised, because)
