@@ -150,7 +150,7 @@ def load(word: Word | Sequence[Word] = ()) -> list[Any]:
     from ..runs.chosen_models import choose_models
     from ..runs.selection import choose_cases, told_apart
 
-    words = _listed("cases", _given(word), (str, Path, Case, ModelCase))
+    words = _as_list("cases", _given(word), (str, Path, Case, ModelCase))
     given = [case for case in words if isinstance(case, Case | ModelCase)]
     named = [str(name) for name in words if not isinstance(name, Case | ModelCase)]
     chosen = choose_models(named) if named else None
@@ -158,8 +158,8 @@ def load(word: Word | Sequence[Word] = ()) -> list[Any]:
         raise CaseError(chosen.mistakes)
     models = [*(chosen.cases if chosen else ())]
     others = [*(chosen.others if chosen else ())]
-    found = choose_cases(others) if others or not words else []
-    cases = told_apart([*(case for case in given if isinstance(case, Case)), *found])
+    loaded = choose_cases(others) if others or not words else []
+    cases = told_apart([*(case for case in given if isinstance(case, Case)), *loaded])
     return [*cases, *(case for case in given if isinstance(case, ModelCase)), *models]
 
 
@@ -198,13 +198,13 @@ def solve(word: Word) -> Reference:
     from .page.motion_frames import reference_frame
     from .show import progress as shown
 
-    words = _listed("cases", _given(word), (str, Path, Case, ModelCase))
+    words = _as_list("cases", _given(word), (str, Path, Case, ModelCase))
     if not words:
         raise CaseError([Mistake("cases", 0, 0, "", "none is named; one can be solved")])
     cases = load(words)
     if len(cases) > 1:
         names = ", ".join(case.name for case in cases)
-        named = ", ".join(str(getattr(one, "name", one)) for one in words)
+        named = ", ".join(str(getattr(item, "name", item)) for item in words)
         raise CaseError([Mistake(named, 0, 0, "", f"has variants; solve one of: {names}")])
     (case,) = cases
     if isinstance(case, ModelCase):
@@ -262,18 +262,18 @@ def run(
     from .show import cures
     from .show.summary import summary
 
-    found = load(word)
+    loaded = load(word)
     _in_range(jobs=(jobs, 1.0))
     own = made(Document(Source("options", (), {}), _options(options), []), OWN)
-    names = _listed("engines", engines, (str,))
-    files = [str(file) for file in _listed("settings", settings, (str, Path))]
-    models = [case for case in found if isinstance(case, ModelCase)]
-    cases = [case for case in found if isinstance(case, Case)]
+    names = _as_list("engines", engines, (str,))
+    files = [str(file) for file in _as_list("settings", settings, (str, Path))]
+    models = [case for case in loaded if isinstance(case, ModelCase)]
+    cases = [case for case in loaded if isinstance(case, Case)]
     wanted = requested(cases, names, files, own=list(own.values()), models=models)
     known = committed.committed_causes() if causes and cache else None
-    with _aloud(progress) as told:
+    with _aloud(progress) as listener:
         store = usable() if cache else None
-        request = replace(wanted, jobs=jobs, progress=told, store=store)
+        request = replace(wanted, jobs=jobs, progress=listener, store=store)
         report = measure(request, search=causes, known=known)
     if mistakes := [*wanted.mistakes, *report.mistakes]:
         raise CaseError(mistakes)
@@ -317,26 +317,26 @@ def advise(
     from ..search.advice.advise import advised
 
     _in_range(jobs=(jobs, 1.0), margin=(margin, 1.0), tolerance=(tolerance, SMALLEST))
-    if not (words := _listed("cases", _given(word), (str, Path, Case))):
+    if not (words := _as_list("cases", _given(word), (str, Path, Case))):
         raise CaseError([Mistake("cases", 0, 0, "", "none is named: all of them take very long")])
     cases = load(words)
     models = [case for case in cases if isinstance(case, ModelCase)]
     if models and len(models) < len(cases):
         what = "is a model: ask for advice on models alone, for their rows are others"
         raise CaseError([Mistake(model.file, 0, 0, "", what) for model in models])
-    names = _listed("engines", engines, (str,))
+    names = _as_list("engines", engines, (str,))
     wanted = requested([] if models else cases, names, ["shipped"], models=models)
     if models:
         return _advised_models(replace(wanted, jobs=jobs), tolerance, margin, progress)
     bar = Requirement(tolerance, margin)
     store = usable() if cache else None
-    with _aloud(progress) as told:
-        request = replace(wanted, jobs=jobs, progress=told, store=store)
+    with _aloud(progress) as listener:
+        request = replace(wanted, jobs=jobs, progress=listener, store=store)
         with advised(request, bar) as advice:
-            found = [row for one in advice for row in rows(one)]
+            table = [row for case_advice in advice for row in rows(case_advice)]
     if wanted.mistakes:
         raise CaseError(wanted.mistakes)
-    return pd.DataFrame(map(vars, found))
+    return pd.DataFrame(map(vars, table))
 
 
 def _advised_models(
@@ -346,8 +346,8 @@ def _advised_models(
 
     from .command.own_advice import advised_models
 
-    with _aloud(progress) as told:
-        advice, mistakes = advised_models(replace(request, progress=told), tolerance, margin)
+    with _aloud(progress) as listener:
+        advice, mistakes = advised_models(replace(request, progress=listener), tolerance, margin)
     if mistakes:
         raise CaseError(mistakes)
     rows = [
@@ -371,13 +371,13 @@ def _in_range(**numbers: tuple[float | None, float]) -> None:
     mistakes = [
         Mistake(name, 0, 0, "", f"should be {_kind(name)} {_from(least)}, is {number!r}")
         for name, (number, least) in numbers.items()
-        if not (number is None and name in BY_DEFAULT) and not _within(name, number, least)
+        if not (number is None and name in BY_DEFAULT) and not _is_number(name, number, least)
     ]
     if mistakes:
         raise CaseError(mistakes)
 
 
-def _within(name: str, number: object, least: float) -> bool:
+def _is_number(name: str, number: object, least: float) -> bool:
     from .command.options import MOST_JOBS
 
     if isinstance(number, bool) or not isinstance(number, Integral if name == "jobs" else Real):
@@ -404,17 +404,17 @@ def _aloud(progress: "Progress | None") -> "Iterator[Progress]":
     """The user's own; else what takes longer than two seconds says on the error stream how far."""
     from .show import progress as shown
 
-    with shown.aloud(), shown.progress(quiet=True) as told:
-        yield progress or told
+    with shown.aloud(), shown.progress(quiet=True) as listener:
+        yield progress or listener
 
 
-def _listed(name: str, given: Any, kinds: tuple[type, ...]) -> list[Any]:
+def _as_list(name: str, given: Any, kinds: tuple[type, ...]) -> list[Any]:
     """Returns what was given as a list, where each is of these kinds; else raises CaseError."""
-    found = [given] if isinstance(given, kinds) else given
-    if isinstance(found, Iterable) and not isinstance(found, str | bytes | Mapping):
-        found = list(found)
-        if all(isinstance(one, kinds) for one in found):
-            return found
+    values = [given] if isinstance(given, kinds) else given
+    if isinstance(values, Iterable) and not isinstance(values, str | bytes | Mapping):
+        values = list(values)
+        if all(isinstance(value, kinds) for value in values):
+            return values
     known = " or ".join(kind.__name__ for kind in kinds)
     what = f"should be {known}, or several in a list, is {given!r}"
     raise CaseError([Mistake(name, 0, 0, "", what)])
@@ -422,21 +422,21 @@ def _listed(name: str, given: Any, kinds: tuple[type, ...]) -> list[Any]:
 
 def _options(options: Any) -> dict[str, Any]:
     """Returns the options of engines by their names, which are text; else raises CaseError."""
-    found = {} if options is None else options
-    if not isinstance(found, Mapping) or not all(map(_named, found.items())):
+    mapping = {} if options is None else options
+    if not isinstance(mapping, Mapping) or not all(map(_text_names, mapping.items())):
         what = f'should be as {{"mujoco": {{"integrator": "RK4"}}}}, is {options!r}'
         raise CaseError([Mistake("options", 0, 0, "", what)])
-    return _plain(found)
+    return _plain(mapping)
 
 
-def _named(item: tuple[Any, Any], depth: int = 0) -> bool:
+def _text_names(item: tuple[Any, Any], depth: int = 0) -> bool:
     """Whether all names are text, of options no deeper than a file's may be."""
     from ...cases.language.document import DEEPEST
 
     name, value = item
     if not isinstance(value, Mapping):
         return isinstance(name, str)
-    deep = depth < DEEPEST and all(_named(each, depth + 1) for each in value.items())
+    deep = depth < DEEPEST and all(_text_names(each, depth + 1) for each in value.items())
     return isinstance(name, str) and deep
 
 
@@ -451,7 +451,7 @@ def _plain(value: Any) -> Any:
 
 def _plotted(asked: str | Sequence[str], known: Iterable[str], first: Iterable[str]) -> list[str]:
     """Returns the quantities that are plotted. Raises CaseError of one that is not there."""
-    shown = _listed("quantities", asked, (str,)) or [name for name in first if name in known]
+    shown = _as_list("quantities", asked, (str,)) or [name for name in first if name in known]
     for name in shown:
         _one_of("quantities", name, known)
     return shown or list(known)[:1]

@@ -146,8 +146,8 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     root, by_paths = config.rootpath, config.args_source is source.TESTPATHS
     walked = [(config.invocation_params.dir / argument).resolve() for argument in config.args]
     for pattern in config.getini("textmech_cases"):
-        found = [Path(file) for file in glob.glob(_from_root(pattern, config), recursive=True)]
-        files = [file for file in found if file.suffix in SUFFIXES]
+        paths = [Path(file) for file in glob.glob(_from_root(pattern, config), recursive=True)]
+        files = [file for file in paths if file.suffix in SUFFIXES]
         stray = next(_outside(files, walked if by_paths else [root]), None)
         if not files:
             what = f"no case file fits {pattern!r}; a pattern with a space stands in quotes"
@@ -317,7 +317,7 @@ class CaseItem(pytest.Item):
         """
         from ...cases.mistake import CaseError
 
-        report = _found(self.session)
+        report = _session_report(self.session)
         mine = [mistake for mistake in report.mistakes if mistake.file == self.case.source.file]
         if mine:
             raise RowError(str(CaseError(mine)))
@@ -446,13 +446,13 @@ class ComparisonItem(CaseItem):
 
 def measured(session: pytest.Session) -> "Report":
     """Returns the report of all collected rows. Raises RowError where a file has mistakes."""
-    report = _found(session)
+    report = _session_report(session)
     if report.mistakes:
         raise RowError("\n".join(map(str, report.mistakes)))
     return report
 
 
-def _found(session: pytest.Session) -> "Report":
+def _session_report(session: pytest.Session) -> "Report":
     """Returns the report of all collected rows, each simulated once in the session.
 
     It also says what could not be simulated.
@@ -477,11 +477,11 @@ def _measure(session: pytest.Session) -> "Report":
     }
     shared = getattr(session.config, "workerinput", {}).get(_SHARED)
     cached = not session.config.getoption("textmech_no_cache")
-    with aloud(_tell), progress(quiet=True) as told:
+    with aloud(_tell), progress(quiet=True) as listener:
         own = _settings(session.config)
         models = [case for case in cases.values() if isinstance(case, ModelCase)]
         scenes = [case for case in cases.values() if not isinstance(case, ModelCase)]
-        return rows(scenes, sorted(used), own, shared, told, cached=cached, models=models)
+        return rows(scenes, sorted(used), own, shared, listener, cached=cached, models=models)
 
 
 def _tell(line: str) -> None:

@@ -135,22 +135,22 @@ def advise(
     with progress.progress() as shown, finished(used is not None):
         means = replace(request, jobs=jobs, progress=shown, store=used)
         own, mistakes = advised_models(means, tolerance, margin) if models.cases else ([], [])
-        for line in (line for one in own for line in lines(one) if not wants_json):
+        for line in (line for tried in own for line in lines(tried) if not wants_json):
             say(line)
         tolerances = [None, PART] if every and tolerance is None else [tolerance]
         for each in tolerances if chosen else ():
             asked = Requirement(each, margin, front=front)
-            with advised(means, asked, listener if front else None) as found:
-                for one in found:
-                    table += rows(one)
-                    for line in advice_lines(one) if front else ():
+            with advised(means, asked, listener if front else None) as advice:
+                for pair_advice in advice:
+                    table += rows(pair_advice)
+                    for line in advice_lines(pair_advice) if front else ():
                         say(line)
         if wants_json:
             code = BAD_INPUT if mistakes else 0
-            told = {"advice": [asdict(row) for row in table], "exit_code": code}
-            told |= {"models": [asdict(one) for one in own]} if models.cases else {}
-            told |= {"mistakes": document.mistakes(mistakes)} if mistakes else {}
-            document.write(told)
+            data = {"advice": [asdict(row) for row in table], "exit_code": code}
+            data |= {"models": [asdict(tried) for tried in own]} if models.cases else {}
+            data |= {"mistakes": document.mistakes(mistakes)} if mistakes else {}
+            document.write(data)
     if out is not None:
         write.advice(table, out, overwrite=overwrite)
         DONE.append(f"the advice is in {out}")
@@ -161,8 +161,8 @@ def advise(
 
 
 def _say(lines: "Callable[[Advised], Iterator[str]]", advice: "Sequence[Advised]") -> None:
-    for one in advice:
-        for line in lines(one):
+    for advised in advice:
+        for line in lines(advised):
             say(line)
 
 

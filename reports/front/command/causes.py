@@ -53,14 +53,14 @@ def causes(
     if request.mistakes:
         raise CaseError(request.mistakes)
     used, known = (None, None) if no_cache else (store.usable(), committed.committed_causes())
-    with progress.progress() as told, finished(used is not None):
-        request = replace(request, book=False, jobs=jobs, progress=told, store=used)
+    with progress.progress() as listener, finished(used is not None):
+        request = replace(request, book=False, jobs=jobs, progress=listener, store=used)
         report = explained.measure(request, search=True, known=known)
     if names:
         mine = [c for c in report.causes if {c.engine, f"{c.engine}.{c.setting}"} & {*names}]
         report = replace(report, causes=mine)
-    if known and (told := cures.carried(report.causes, known.causes)):
-        tell(told)
+    if known and (summary := cures.carried(report.causes, known.causes)):
+        tell(summary)
     if wants_json:
         code = BAD_INPUT if report.mistakes else 0
         document.write(document.of_causes(report.causes, report.mistakes, exit_code=code))
@@ -79,11 +79,11 @@ def _print(causes: "Sequence[Cause]", off: int) -> None:
         )
     elif not causes:
         say("no quantity is above its tolerance, in any setting")
-    for (case, engine, setting), found in groupby(
+    for (case, engine, setting), group in groupby(
         causes, key=lambda cause: (cause.case, cause.engine, cause.setting)
     ):
         say(f"\n{case} in {engine}.{setting}")
-        for quantity, cures in groupby(found, key=lambda cause: cause.quantity):
+        for quantity, cures in groupby(group, key=lambda cause: cause.quantity):
             first, *others = cures
             before = "diverged" if first.error is None else f"{first.error:.2g}"
             allowed = f"(allowed {first.allowed or 0:.1g})"
@@ -95,7 +95,7 @@ def _print(causes: "Sequence[Cause]", off: int) -> None:
 def _line(cause: "Cause") -> str:
     if cause.error_after is None:
         return cause.cure
-    told = [f"{cause.error_after:.2g} with {cause.cure}"]
-    told += [] if cause.step is None else [f"h = {cause.step:.3g} s"]
-    told += [] if cause.cost is None else [f"×{cause.cost:.2g} the cost"]
-    return ", ".join([*told, *([f"error ~ {cause.law}"] if cause.law else [])])
+    parts = [f"{cause.error_after:.2g} with {cause.cure}"]
+    parts += [] if cause.step is None else [f"h = {cause.step:.3g} s"]
+    parts += [] if cause.cost is None else [f"×{cause.cost:.2g} the cost"]
+    return ", ".join([*parts, *([f"error ~ {cause.law}"] if cause.law else [])])

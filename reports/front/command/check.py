@@ -67,14 +67,14 @@ def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # an engine that is broken is no mistake of a case
         engines = choose_engines([], [])
-    found = _checked(files, engines, jobs or workers(), long=allow_long)
-    mistakes = [mistake for one in found for mistake in one.mistakes]
-    code = BAD_INPUT if mistakes else FAILED if any(one.fails for one in found) else 0
+    results = _checked(files, engines, jobs or workers(), long=allow_long)
+    mistakes = [mistake for result in results for mistake in result.mistakes]
+    code = BAD_INPUT if mistakes else FAILED if any(result.fails for result in results) else 0
     if wants_json:
-        write({"files": [_document(one) for one in found], "exit_code": code})
+        write({"files": [_document(result) for result in results], "exit_code": code})
         raise click.exceptions.Exit(code)
-    for one in found:
-        for line in _lines(one):
+    for result in results:
+        for line in _lines(result):
             say(line)
     if mistakes:
         raise CaseError(mistakes)
@@ -93,15 +93,15 @@ def _checked(
     by_task: dict[int, Checked] = {}
     if tasks:
         alone = len(units) == 1  # no file is done before it
-        with progress(quiet=alone) as told, local(min(jobs, len(tasks))) as working:
-            told.watch(working)
+        with progress(quiet=alone) as listener, local(min(jobs, len(tasks))) as working:
+            listener.watch(working)
             for index, answer in spread(_done, tasks, working):
                 file = tasks[index].name
                 if isinstance(answer, Died):
                     why = Mistake(file, 0, 0, "", f"could not be checked: {answer.because}")
                     answer = Checked(file, [], [why], [])
                 by_task[index] = answer
-                told("files", len(by_task), len(tasks), file, len(by_task) / len(tasks))
+                listener("files", len(by_task), len(tasks), file, len(by_task) / len(tasks))
     answers = (by_task[index] for index in range(len(tasks)))
     return [unit if isinstance(unit, Checked) else next(answers) for unit in units]
 
@@ -196,40 +196,40 @@ def _solved(task: _Task) -> Checked:
     )
 
 
-def _lines(one: Checked) -> Iterator[str]:
-    if one.model:
+def _lines(checked: Checked) -> Iterator[str]:
+    if checked.model:
         from ...compare.own_equations import lines
 
-        yield f"{one.file}: {one.model}"
-        yield from lines(one.parts)
+        yield f"{checked.file}: {checked.model}"
+        yield from lines(checked.parts)
         return
-    for what in dict.fromkeys(one.otherwise):
-        yield f"{one.file}: FAILS: {what}"
-    for _, broken in one.broken:
+    for what in dict.fromkeys(checked.otherwise):
+        yield f"{checked.file}: FAILS: {what}"
+    for _, broken in checked.broken:
         numbers = f"{broken.difference:.2e} is above {broken.bound:.1e}"
-        yield f"{one.file}: FAILS: the reference's {broken.name}: {numbers}"
-    for case, what in one.warnings:
-        variant = f" {case}:" if len(one.cases) > 1 else ""
-        yield f"{one.file}: warning:{variant} {what}"
-    if not (one.mistakes or one.broken):
-        many = "s" if len(one.cases) > 1 else ""
-        yield f"{one.file}: {len(one.cases)} case{many}, no mistakes"
+        yield f"{checked.file}: FAILS: the reference's {broken.name}: {numbers}"
+    for case, what in checked.warnings:
+        variant = f" {case}:" if len(checked.cases) > 1 else ""
+        yield f"{checked.file}: warning:{variant} {what}"
+    if not (checked.mistakes or checked.broken):
+        many = "s" if len(checked.cases) > 1 else ""
+        yield f"{checked.file}: {len(checked.cases)} case{many}, no mistakes"
 
 
-def _document(one: Checked) -> dict[str, object]:
+def _document(checked: Checked) -> dict[str, object]:
     from ..show.document import mistakes
 
-    if one.model:
-        parts = [asdict(part) | {"holds": part.holds} for part in one.parts]
-        return {"file": one.file, "model": one.model, "mistakes": [], "equations": parts}
+    if checked.model:
+        parts = [asdict(part) | {"holds": part.holds} for part in checked.parts]
+        return {"file": checked.file, "model": checked.model, "mistakes": [], "equations": parts}
     return {
-        "file": one.file,
-        "cases": list(one.cases),
-        "mistakes": mistakes(one.mistakes),
+        "file": checked.file,
+        "cases": list(checked.cases),
+        "mistakes": mistakes(checked.mistakes),
         "fails": [
             {"case": case, "check": c.name, "difference": c.difference, "bound": c.bound}
-            for case, c in one.broken
+            for case, c in checked.broken
         ],
-        "because": [*dict.fromkeys(one.otherwise)],
-        "warnings": [{"case": case, "what": what} for case, what in one.warnings],
+        "because": [*dict.fromkeys(checked.otherwise)],
+        "warnings": [{"case": case, "what": what} for case, what in checked.warnings],
     }

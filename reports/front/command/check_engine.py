@@ -52,9 +52,9 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
     """
     from ..show.document import write
 
-    engine, marks = _made(name)
+    engine, marks = _engine(name)
     if engine is not None:
-        marks += _tried(engine, grades, jobs)
+        marks += _marks(engine, grades, jobs)
     code = FAILED if any(mark.fails for mark in marks) else 0
     if wants_json:
         who = {"engine": name.partition(".")[0], "setting": engine and engine.setting}
@@ -67,7 +67,7 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
     raise click.exceptions.Exit(code)
 
 
-def _made(name: str) -> "tuple[Engine | None, list[Mark]]":
+def _engine(name: str) -> "tuple[Engine | None, list[Mark]]":
     """The engine, or why it cannot be made. Raises CaseError where there is no such."""
     from .... import engines
     from ...compare.adapter_check import Mark
@@ -93,7 +93,7 @@ def _unknown(name: str, known: Sequence[str]) -> Mistake:
     return Mistake(name, 0, 0, "", f"no such engine{nearest(name, known)}")
 
 
-def _tried(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Mark]":
+def _marks(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Mark]":
     """Its members, and each grade in a process that may die."""
     from ...compare.adapter_check import GRADES, Attempt, marked, members
     from ...runs.processes.pool import Died, local, spread, workers
@@ -109,15 +109,15 @@ def _tried(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Ma
         return marks
     chosen = [names[word] for word in words] or list(GRADES)
     attempts = [Attempt(g, choose_cases([g.case], known=None)[0], engine) for g in chosen]
-    found: dict[int, Mark] = {}
-    with progress() as told, local(min(jobs or workers(), len(attempts))) as working:
+    by_index: dict[int, Mark] = {}
+    with progress() as listener, local(min(jobs or workers(), len(attempts))) as working:
         for index, mark in spread(marked, attempts, working):
             if isinstance(mark, Died):
                 mark = attempts[index].mark("crashed", mark.because)
-            found[index] = mark
-            done = len(found) / len(attempts)
-            told("grades", len(found), len(attempts), attempts[index].name, done)
-    return marks + [found[index] for index in range(len(attempts))]
+            by_index[index] = mark
+            done = len(by_index) / len(attempts)
+            listener("grades", len(by_index), len(attempts), attempts[index].name, done)
+    return marks + [by_index[index] for index in range(len(attempts))]
 
 
 def _lines(name: str, mark: "Mark") -> list[str]:
@@ -134,5 +134,5 @@ def _sum(marks: "Sequence[Mark]") -> str:
     counts = {mark.outcome: 0 for mark in marks}
     for mark in marks:
         counts[mark.outcome] += 1
-    told = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
-    return f"\n{told}; what is asked for: {DOCUMENTED}"
+    counted = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
+    return f"\n{counted}; what is asked for: {DOCUMENTED}"

@@ -115,12 +115,12 @@ def diff(
         raise click.UsageError(f"{old} and {new} are one folder: nothing can be compared")
     named = {str(old) if len(folders) == 2 else "the committed reports": old, str(new): new}
     before, after = opened(named)
-    found = difference(before, after, Rule(**thresholds), whole=whole)
+    compared = difference(before, after, Rule(**thresholds), whole=whole)
     if wants_json:
-        say(document(found))
+        say(document(compared))
     elif wants_markdown:
-        say(markdown(found, every=every))
+        say(markdown(compared, every=every))
     else:
-        say(text(found, width=shutil.get_terminal_size().columns, every=every))
-    if found.regressed:
+        say(text(compared, width=shutil.get_terminal_size().columns, every=every))
+    if compared.regressed:
         raise click.exceptions.Exit(FAILED)

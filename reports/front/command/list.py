@@ -36,7 +36,7 @@ def list_(words: tuple[str, ...], wants_json: bool) -> None:
 
     every = [case for file in (shipped() | models()).values() for case in titled(file)]
     named = [case for case in every if _has(f"{case.name} {case.title} {case.origin}", words)]
-    beside = [case for case in every if case not in named and _has(_held(case.file), words)]
+    beside = [case for case in every if case not in named and _has(_case_text(case.file), words)]
     cases = [*named, *beside]
     if not cases:
         raise click.ClickException(f"no shipped case has {' and '.join(words)} in it")
@@ -66,7 +66,7 @@ def _has(text: str, words: Sequence[str]) -> bool:
 
 
 @cache
-def _held(file: str) -> str:
+def _case_text(file: str) -> str:
     """Returns the text of a case file without its comments."""
     return re.sub(r"(?m)(^|\s)#.*$", "", Path(file).read_text(encoding="utf-8"))
 
@@ -99,13 +99,13 @@ ALIKE = {
 
 
 def _lines(cases: "Sequence[Titled]") -> Iterator[str]:
-    for file, found in groupby(cases, key=lambda case: case.name.partition(".")[0]):
-        variants = [*found]
+    for file, group in groupby(cases, key=lambda case: case.name.partition(".")[0]):
+        variants = [*group]
         names = [case.name.removeprefix(file) for case in variants]
-        yield from _within(f"{file} {' '.join(names)}".rstrip(), "")
-        yield from _within(variants[0].title, "    ")
-        yield from _within(str(variants[0].origin), "    ")
+        yield from _wrapped(f"{file} {' '.join(names)}".rstrip(), "")
+        yield from _wrapped(variants[0].title, "    ")
+        yield from _wrapped(str(variants[0].origin), "    ")
 
 
-def _within(text: str, indent: str) -> list[str]:
+def _wrapped(text: str, indent: str) -> list[str]:
     return wrap(text, WIDTH - 2, initial_indent=indent, subsequent_indent=indent or "    ")

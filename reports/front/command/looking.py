@@ -72,8 +72,8 @@ def looked_at(request: "Request", *, causes: bool = False, cached: bool = True) 
     if used is not None:
         used.trim()
     report.mistakes[:0] = request.mistakes
-    if known and (told := carried(report.causes, known.causes)):
-        tell(told)
+    if known and (summary := carried(report.causes, known.causes)):
+        tell(summary)
     return report
 
 

@@ -122,8 +122,8 @@ def as_json(command: Callable[..., None]) -> Callable[..., None]:
             if console.gone():
                 raise  # it is the output itself: the reason goes where somebody may read it
 
-            found = document.mistakes(_mistakes(error))
-            document.write({"mistakes": found, "exit_code": BAD_INPUT})
+            mistakes = document.mistakes(_mistakes(error))
+            document.write({"mistakes": mistakes, "exit_code": BAD_INPUT})
             raise click.exceptions.Exit(BAD_INPUT) from None
 
     what = "Print one JSON document, for scripts."
@@ -156,7 +156,7 @@ class Folder(click.Path):
         atexit.register(_unmade, missing)
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            _tried(folder)
+            _try_writing(folder)
         except OSError as error:
             self.fail(f"cannot write to {folder}: {error.strerror}", param, ctx)
         return folder
@@ -169,7 +169,7 @@ def _unmade(folders: Sequence[Path]) -> None:
             folder.rmdir()
 
 
-def _tried(folder: Path) -> None:
+def _try_writing(folder: Path) -> None:
     """Makes something there and takes it away, if it is interrupted too. Raises OSError."""
     probe = f"{folder}{os.sep}.writing-{os.getpid()}"
     try:

@@ -107,16 +107,16 @@ def lines(advice: "OwnAdvice") -> Iterator[str]:
     if advice.because:
         yield plain(f"  nothing is advised: {advice.because}")
     for tried in advice.tried:
-        yield from map(plain, _tried(tried, advice.margin))
+        yield from map(plain, _model_lines(tried, advice.margin))
 
 
-def _tried(tried: "Tried", margin: float) -> Iterator[str]:
+def _model_lines(tried: "Tried", margin: float) -> Iterator[str]:
     yield f"  {tried.started}, judged until {tried.until:.3g} s; its limit by {tried.limit}"
     yield from (f"    {sentence}" for sentence in tried.seen)
     yield from (f"      {number}" for number in tried.suspected)
     own = tried.own
     setting = f"{own.integrator}, {milliseconds(own.step)}"
-    yield f"    its own setting, {setting}: {_off(own)}"
+    yield f"    its own setting, {setting}: {_worst_text(own)}"
     if tried.because:
         yield f"    nothing is advised: {tried.because}"
         return
@@ -146,10 +146,10 @@ def _tried(tried: "Tried", margin: float) -> Iterator[str]:
 
 def _price(recipe: "Recipe") -> str:
     moves = f"; its own equations then move {recipe.moves} otherwise" if recipe.moves else ""
-    return f"costs ×{recipe.cost:.2g}, {_off(recipe)}{moves}"
+    return f"costs ×{recipe.cost:.2g}, {_worst_text(recipe)}{moves}"
 
 
-def _off(recipe: "Recipe") -> str:
+def _worst_text(recipe: "Recipe") -> str:
     if recipe.ratio is None:
         return "diverges"
     return f"{recipe.quantity} {factor(recipe.ratio)} of what is allowed"

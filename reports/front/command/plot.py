@@ -61,33 +61,33 @@ def plot(
     from ..page.picture import picture
 
     unasked(file.parent, [file.name], overwrite=overwrite)
-    request = _one(case, names, allow_long)
+    request = _request_of(case, names, allow_long)
     report = looked_at(request)
     if report.mistakes:
         raise CaseError(report.mistakes)
     name = next(iter([*report.cases, *(model.case for model in report.models)])).name
-    found = motions(report).get(name)
-    if found is None:
+    motion = motions(report).get(name)
+    if motion is None:
         why = next((model.because for model in report.models), "")
         still = plain(f": {why}") if why else " is a claim about states: nothing moves"
         raise click.UsageError(f"{plain(name)}{still}")
     chosen = _quantity(quantity, report)
     rows = report.comparisons, report.rungs, report.steps
-    save(picture(name, chosen, found, *rows), file)
+    save(picture(name, chosen, motion, *rows), file)
     DONE.append(f"the picture is {file}")
     say(f"written to {file}: {plain(chosen)}")
-    if until := found["curves"].get("until"):
+    if until := motion["curves"].get("until"):
         say(f"later than {until:.3g} s nothing is judged")
     if failing := next((row.because for row in report.comparisons if row.verdict == FAILS), None):
         say(f"FAILS: {failing}")
 
 
-def _one(case: str, engines: tuple[str, ...], long: bool) -> "Request":
+def _request_of(case: str, engines: tuple[str, ...], long: bool) -> "Request":
     """Returns what is asked of the one case or model. Raises click.UsageError of several."""
     request = named([case], engines, long=long)
     chosen = [*request.cases, *request.models]
     if len(chosen) > 1:
-        names = ", ".join(plain(one.name) for one in chosen)
+        names = ", ".join(plain(engine.name) for engine in chosen)
         what = "is a folder of models" if Path(case).is_dir() else "has variants"
         raise click.UsageError(f"{case} {what}; plot one of: {names}")
     return request

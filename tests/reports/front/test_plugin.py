@@ -488,7 +488,7 @@ def asked(file: str, module: Any = pytest_plugin) -> str:
     report = SimpleNamespace(mistakes=[Mistake("bad.yaml", 1, 1, "title", "missing")])
     source = SimpleNamespace(source=SimpleNamespace(file=file))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "_found", lambda session: report)
+        patch.setattr(module, "_session_report", lambda session: report)
         try:
             module.CaseItem.report(SimpleNamespace(session=None, case=source))
         except module.RowError as error:
