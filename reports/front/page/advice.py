@@ -72,20 +72,20 @@ def _by_theme(rows: Sequence[Mapping[str, Any]], themes: Themes) -> Any:
         return order.index(theme), engine, tolerance != AS_ALLOWED, tolerance
 
     for theme, engine, tolerance in sorted(groups, key=place):
-        found = groups[theme, engine, tolerance]
-        cured = [row for row in found if row["step"] and row["recipe"] != NONE]
+        group = groups[theme, engine, tolerance]
+        cured = [row for row in group if row["step"] and row["recipe"] != NONE]
         recipes = Counter(row["recipe"] for row in cured).most_common()
         first = recipes[0][0] if recipes else ""
         usual = [row for row in cured if row["recipe"] == first]
         hardest = max(usual, key=lambda row: float(row["cost"]), default=None)
-        cases = "case" if len(found) == 1 else "cases"
+        cases = "case" if len(group) == 1 else "cases"
         yield {
-            "says": f"keeps {len(usual)} of {len(found)} {cases} about {theme}" if first else "",
-            "most": 2 * len(usual) >= len(found),
+            "says": f"keeps {len(usual)} of {len(group)} {cases} about {theme}" if first else "",
+            "most": 2 * len(usual) >= len(group),
             "theme": theme,
             "engine": engine,
             "tolerance": tolerance,
-            "cases": len(found),
+            "cases": len(group),
             "cured": len(cured),
             "recipe": first,
             "usual": len(usual),

@@ -20,10 +20,10 @@ def causes(frame: pd.DataFrame | None) -> dict[str, Any] | None:
     """The cures, by how many rows each one cures, and all rows."""
     if frame is None:
         return None
-    found: dict[tuple[str, str], list[str]] = {}
+    cures: dict[tuple[str, str], list[str]] = {}
     for row in records(frame, ("case", "engine", "cure")):
-        found.setdefault((row["engine"], row["cure"]), []).append(row["case"])
-    most = max(map(len, found.values()), default=1)
+        cures.setdefault((row["engine"], row["cure"]), []).append(row["case"])
+    most = max(map(len, cures.values()), default=1)
     by_knob = [
         {
             "engine": engine,
@@ -32,7 +32,7 @@ def causes(frame: pd.DataFrame | None) -> dict[str, Any] | None:
             "percent": 100 * len(cases) // most,
             "cases": sorted(set(cases)),
         }
-        for (engine, cure), cases in sorted(found.items(), key=lambda one: (-len(one[1]), one[0]))
+        for (engine, cure), cases in sorted(cures.items(), key=lambda kv: (-len(kv[1]), kv[0]))
     ]
     return {"by_knob": by_knob, "count": len(frame)}
 
@@ -41,11 +41,11 @@ def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
     """How many rows of each release are within, and those that moved."""
     if frame is None:
         return None
-    found: dict[tuple[str, str, str], list[dict[str, str]]] = {}
+    by_release: dict[tuple[str, str, str], list[dict[str, str]]] = {}
     for row in records(frame, ("engine", "version", "setting", "quantity", "verdict", "moved")):
         if row["quantity"] == "audit":
             continue
-        found.setdefault((row["engine"], row["version"], row["setting"]), []).append(row)
+        by_release.setdefault((row["engine"], row["version"], row["setting"]), []).append(row)
     shares = [
         {
             "engine": engine,
@@ -56,7 +56,7 @@ def versions(frame: pd.DataFrame | None) -> dict[str, Any] | None:
             "percent": 100 * within // len(rows),
             "moved": sum(_moved(row["moved"]) for row in rows),
         }
-        for (engine, version, setting), rows in sorted(found.items(), key=_by_release)
+        for (engine, version, setting), rows in sorted(by_release.items(), key=_by_release)
     ]
     before = _before(frame)
     moved = [
@@ -72,20 +72,20 @@ def _before(frame: pd.DataFrame) -> list[str]:
     rows = records(frame, (*SAME, "version", "error"))
     order = sorted(range(len(rows)), key=lambda k: _release(rows[k]["version"]))
     last: dict[tuple[str, ...], str] = {}
-    found = [""] * len(rows)
+    before = [""] * len(rows)
     for k in order:
         of = tuple(rows[k][name] for name in SAME)
-        found[k] = last.get(of, "")
+        before[k] = last.get(of, "")
         last[of] = rows[k]["error"]
-    return found
+    return before
 
 
 def _moved(text: str) -> bool:
     return text.strip().lower() in YES
 
 
-def _by_release(one: tuple[tuple[str, str, str], Any]) -> tuple[str, str, list[tuple[bool, Any]]]:
-    engine, version, setting = one[0]
+def _by_release(item: tuple[tuple[str, str, str], Any]) -> tuple[str, str, list[tuple[bool, Any]]]:
+    engine, version, setting = item[0]
     return engine, setting, _release(version)
 
 

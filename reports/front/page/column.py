@@ -47,11 +47,11 @@ def columns(rows: Iterable[Comparison]) -> list[Column]:
     return ordered(map(column, rows))
 
 
-def ordered(found: Iterable[Column]) -> list[Column]:
+def ordered(columns: Iterable[Column]) -> list[Column]:
     """Returns each of them once, by engine and setting, the book's approximations last."""
-    return sorted(set(found), key=_place)
+    return sorted(set(columns), key=_place)
 
 
-def _place(one: Column) -> tuple[bool, str, float, str, int]:
-    setting = place(one.setting) if one.setting != OWN else -1.0  # a model's own comes first
-    return one.engine == BOOK, one.engine, setting, one.setting, WAYS.get(one.realised, 0)
+def _place(of: Column) -> tuple[bool, str, float, str, int]:
+    setting = place(of.setting) if of.setting != OWN else -1.0  # a model's own comes first
+    return (of.engine == BOOK, of.engine, setting, of.setting, WAYS.get(of.realised, 0))

@@ -76,7 +76,7 @@ def cells(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> dict[tuple[str,
             compared.setdefault((row.case, column(row)), []).append(row)
     for rung in rungs:
         climbed.setdefault((rung.case, column(rung)), []).append(rung)
-    return {at: _cell(found, climbed.get(at, [])) for at, found in compared.items()}
+    return {at: _cell(group, climbed.get(at, [])) for at, group in compared.items()}
 
 
 def _cell(rows: Sequence[Comparison], ladders: Sequence[Rungs]) -> Cell:
@@ -88,7 +88,7 @@ def _cell(rows: Sequence[Comparison], ladders: Sequence[Rungs]) -> Cell:
     kind = _kind(judged, beyond)
     if not sizes:
         return Cell(kind, kind, judged=len(judged), why=judged[0].because)
-    ratio, worst = max(sizes, key=lambda one: one[0])
+    ratio, worst = max(sizes, key=lambda pair: pair[0])
     steps = [ladder.usable_step for ladder in ladders]
     known = [step for step in steps if step is not None]
     return Cell(

@@ -20,7 +20,7 @@ from .heat import Cell
 def listed(
     cases: Sequence[Case],
     shown: Sequence[Column],
-    found: Mapping[Any, Cell],
+    cells: Mapping[Any, Cell],
     about: Mapping[str, tuple[str, ...]],
 ) -> list[dict[str, Any]]:
     """The cases of each file together: they share title and equations."""
@@ -40,7 +40,7 @@ def listed(
                     {
                         "name": case.name,
                         "variant": case.name.partition(".")[2] or case.name,
-                        "cells": chips(case.name, shown, found),
+                        "cells": chips(case.name, shown, cells),
                     }
                     for case in variants
                 ],
@@ -50,11 +50,11 @@ def listed(
 
 
 def chips(
-    name: str, shown: Sequence[Column], found: Mapping[Any, Cell]
+    name: str, shown: Sequence[Column], all_cells: Mapping[Any, Cell]
 ) -> list[tuple[Column, Cell]]:
     """Returns the columns in which a case or a model ran, with its result in each."""
-    cells = [(one, found.get((name, one))) for one in shown]
-    return [(one, cell) for one, cell in cells if cell and cell.kind != REFUSED]
+    cells = [(column, all_cells.get((name, column))) for column in shown]
+    return [(column, cell) for column, cell in cells if cell and cell.kind != REFUSED]
 
 
 # The equations of a case: as its hand-written system states them, with the book's numbers.
@@ -92,13 +92,13 @@ def equations(case: Case) -> list[Equation]:
         return []
     system: Any = SYSTEMS[case.system](**case.parameters)
     modes = dict.fromkeys(type(mode) for mode in getattr(system, "modes", {}).values())
-    found = [one for kind in (type(system), *modes) for one in _of(kind)]
-    return list({(one.numbers, one.html): one for one in found}.values())
+    every = [equation for kind in (type(system), *modes) for equation in _equations_of(kind)]
+    return list({(equation.numbers, equation.html): equation for equation in every}.values())
 
 
-def _of(system: type) -> list[Equation]:
-    told = (getattr(system, name, None) for name in ORDER)
-    return [one for method in told if inspect.isfunction(method) for one in _stated(method)]
+def _equations_of(system: type) -> list[Equation]:
+    methods = (getattr(system, name, None) for name in ORDER)
+    return [e for method in methods if inspect.isfunction(method) for e in _stated(method)]
 
 
 def _stated(method: Any) -> Iterator[Equation]:
@@ -107,11 +107,11 @@ def _stated(method: Any) -> Iterator[Equation]:
     For the motion's own equation, the equations in the lines below come after it.
     """
     lines = [line.strip() for line in (inspect.getdoc(method) or "").splitlines()]
-    found = NUMBERS.match(lines[0]) if lines else None
-    if found is None:
+    match = NUMBERS.match(lines[0]) if lines else None
+    if match is None:
         return
     more = [("", line) for line in lines[1:]] if method.__name__ == ORDER[0] else []
-    for numbers, line in [(found[1].strip(), found[2]), *more]:
+    for numbers, line in [(match[1].strip(), match[2]), *more]:
         equation = _equation(numbers, line)
         if equation is not None:
             yield equation
@@ -176,12 +176,12 @@ def _row(text: str) -> str:
     out: list[str] = []
     place = 0
     while place < len(text):
-        found = TOKEN.match(text, place)
-        if found is None:
+        token = TOKEN.match(text, place)
+        if token is None:
             break
-        place = found.end()
-        element = _element(found)
-        if element and (found["name"] or found["number"] or found[0] in CLOSING or _named(found)):
+        place = token.end()
+        element = _element(token)
+        if element and (token["name"] or token["number"] or token[0] in CLOSING or _named(token)):
             after = AFTER.match(text, place)
             if after and after[0]:
                 element, place = _scripted(element, after), after.end()
@@ -189,21 +189,21 @@ def _row(text: str) -> str:
     return "".join(out)
 
 
-def _named(found: re.Match[str]) -> bool:
-    return found["word"] in FUNCTIONS
+def _named(token: re.Match[str]) -> bool:
+    return token["word"] in FUNCTIONS
 
 
-def _element(found: re.Match[str]) -> str:
-    text = found[0]
-    if found["space"]:
+def _element(token: re.Match[str]) -> str:
+    text = token[0]
+    if token["space"]:
         return ""
-    if found["word"]:
+    if token["word"]:
         if text in FUNCTIONS:
             return f'<mi mathvariant="normal">{text}</mi>{APPLIED}'
         return f"<mtext>&#xA0;{escape(text)}&#xA0;</mtext>"
-    if found["number"]:
+    if token["number"]:
         return f"<mn>{text}</mn>"
-    if found["name"]:
+    if token["name"]:
         letter = escape(unicodedata.normalize("NFC", text))
         # As one letter with its dots: as an accent beside it they are lost where no font for
         # mathematics is installed. Such a letter is not slanted by itself.

@@ -25,15 +25,15 @@ def models_section(
     if not lines:
         return None
     names = [line.case for line in lines]
-    told = [model for model in models if model.case.name in names]
+    chosen = [model for model in models if model.case.name in names]
     return {
         "result": result(lines),
         "lines": [(line.case, words_of(line)[1:]) for line in lines],
-        "sections": {model.case.name for model in told},
+        "sections": {model.case.name for model in chosen},
         "cured": any(line.cure for line in lines),
         "files": [
             {"title": of[0].case.title, "models": [_model(model, shown, cells) for model in of]}
-            for _, group in groupby(told, key=lambda model: model.case.file)
+            for _, group in groupby(chosen, key=lambda model: model.case.file)
             for of in [list(group)]
         ],
     }

@@ -52,14 +52,14 @@ def motion_frames(report: Report) -> dict[str, pd.DataFrame]:
     Its columns are the reference's. Empty is what an engine does not answer.
     """
     of: dict[str, list[Tried]] = {}
-    for one in report.tried:
-        of.setdefault(one.pair.case.name, []).append(one)
-    found: dict[str, pd.DataFrame] = {}
+    for run in report.tried:
+        of.setdefault(run.pair.case.name, []).append(run)
+    by_case: dict[str, pd.DataFrame] = {}
     for case in report.cases:
         if case.name in report.solutions:
             frames = dict(_frames(report, case, of.get(case.name, [])))
-            found[case.name] = pd.concat(frames, names=list(BY)).sort_index()
-    return found | {
+            by_case[case.name] = pd.concat(frames, names=list(BY)).sort_index()
+    return by_case | {
         model.case.name: pd.concat(dict(_model_frames(model)), names=list(BY)).sort_index()
         for model in report.models
         if model.steps is not None
@@ -86,21 +86,21 @@ def _frames(
     report: Report, case: Case, tried: list[Tried]
 ) -> Iterator[tuple[tuple[str, str, str], pd.DataFrame]]:
     yield REFERENCE, reference_frame(case, report.solutions[case.name].trajectory)
-    for one in tried:
-        if one.outcome.samples:
-            engine = one.pair.engine
-            yield (engine.name, engine.setting, one.realised), _engine_frame(case, one)
+    for run in tried:
+        if run.outcome.samples:
+            engine = run.pair.engine
+            yield (engine.name, engine.setting, run.realised), _engine_frame(case, run)
 
 
-def _engine_frame(case: Case, one: Tried) -> pd.DataFrame:
-    samples, times = one.outcome.samples, one.pair.sampled.times
+def _engine_frame(case: Case, run: Tried) -> pd.DataFrame:
+    samples, times = run.outcome.samples, run.pair.sampled.times
     states = {body: samples[body] for body in case.scene.bodies if body in samples}
     columns: dict[str, Array] = {}
     for name in names(case):
-        found = samples.get(name)
-        if found is None or found.shape != times.shape:  # an attitude is judged by its turn off
-            found = _of_states(case, times, states, name)
-        columns[name] = np.full(len(times), np.nan) if found is None else found
+        values = samples.get(name)
+        if values is None or values.shape != times.shape:  # an attitude is judged by its turn off
+            values = _of_states(case, times, states, name)
+        columns[name] = np.full(len(times), np.nan) if values is None else values
     return _framed(case, times, columns)
 
 

@@ -27,8 +27,8 @@ TRAIL = 400  # points of what a body has drawn behind it: twenty loops of twenty
 def motions(report: Report) -> dict[str, Motion]:
     """By case, of those that have a reference and claim a motion, and of models with a limit."""
     of: dict[str, list[Tried]] = {}
-    for one in report.tried:
-        of.setdefault(one.pair.case.name, []).append(one)
+    for run in report.tried:
+        of.setdefault(run.pair.case.name, []).append(run)
     return {
         case.name: motion(case, report.solutions[case.name].trajectory, of.get(case.name, []))
         for case in report.cases
@@ -36,9 +36,9 @@ def motions(report: Report) -> dict[str, Motion]:
     } | {model.case.name: drawn for model in report.models if (drawn := model_motion(model))}
 
 
-def way(one: Tried) -> str:
+def way(run: Tried) -> str:
     """`mujoco.tuned.native`."""
-    return f"{one.pair.engine.name}.{one.pair.engine.setting}.{one.realised}"
+    return f"{run.pair.engine.name}.{run.pair.engine.setting}.{run.realised}"
 
 
 def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
@@ -46,13 +46,13 @@ def motion(case: Case, reference: Trajectory, tried: Sequence[Tried]) -> Motion:
     scene, size = case.scene, extent(case.scene, reference.states)
     reaches = {name: reach(body) for name, body in scene.bodies.items()}
     drawing = Drawing(scene.frame, size, sketch(scene, size), reaches)
-    ran = [one for one in tried if one.outcome.samples]
+    ran = [run for run in tried if run.outcome.samples]
     times, states = _closely(case, reference, size)
     moves = {**poses.moves(states), **poses.driven(case, times)}
     return drawing.motion(
         "reference",
         drawing.poses(times, moves, poses.CLOSE).rounded(),
-        {way(one): _ghost(one, reference.states, case, drawing) for one in ran},
+        {way(run): _ghost(run, reference.states, case, drawing) for run in ran},
         _curves(case, reference, ran),
         _trail(case, times, states),
     )
@@ -89,17 +89,17 @@ def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[list[fl
     return [few_digits(column) for column in way.T]
 
 
-def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, drawing: Drawing) -> Any:
+def _ghost(run: Tried, reference: Mapping[str, Array], case: Case, drawing: Drawing) -> Any:
     """Its poses; None where the reference's drawing covers them, nothing where it has none.
 
     held: whether it is drawn at its samples alone, because nobody knows the way between them.
     """
-    own = {body: one.outcome.samples[body] for body in reference if body in one.outcome.samples}
+    own = {body: run.outcome.samples[body] for body in reference if body in run.outcome.samples}
     if not own or not all(np.all(np.isfinite(rows)) for rows in own.values()):
         return {}  # a quantity may be finite where a body is lost
-    if not one.outcome.wanted and drawing.covers(own, reference):
+    if not run.outcome.wanted and drawing.covers(own, reference):
         return None
-    times, moves = one.pair.sampled.times, poses.moves(own)
+    times, moves = run.pair.sampled.times, poses.moves(own)
     if len(own) == len(reference) and poses.closer(case, times, own, drawing.size) > HELD:
         return {**poses.Poses(times, moves).rounded(), "held": True}
     return drawing.poses(times, moves, poses.GHOST).rounded()
@@ -108,22 +108,22 @@ def _ghost(one: Tried, reference: Mapping[str, Array], case: Case, drawing: Draw
 def _curves(case: Case, reference: Trajectory, ran: Sequence[Tried]) -> dict[str, Any]:
     """By quantity, at every sample: the reference, and by how much each engine is off it."""
     kept = thinned(case.samples)
-    known, found = case.quantities, {}
+    known, curves = case.quantities, {}
     for name in (name for name in case.allow if name in known and name != MASS_MATRIX):
         samples = observe(case.scene, reference, name)
         wanted = samples if samples.ndim == 1 else np.zeros(len(samples))
-        off = {way(one): _off(one, name, samples) for one in ran if name in one.outcome.samples}
-        found[name] = {
+        off = {way(run): _curve(run, name, samples) for run in ran if name in run.outcome.samples}
+        curves[name] = {
             "reference": few_digits(wanted[kept]),
             "off": {name: curve for name, curve in off.items() if curve is not None},
         }
-    return {"times": few_digits(case.times[kept]), "quantities": found}
+    return {"times": few_digits(case.times[kept]), "quantities": curves}
 
 
-def _off(one: Tried, name: str, reference: Array) -> Any:
+def _curve(run: Tried, name: str, reference: Array) -> Any:
     """An engine's samples against the reference's; of attitudes the angle between them."""
-    samples = one.outcome.samples[name]
-    wanted = one.outcome.wanted.get(name)
+    samples = run.outcome.samples[name]
+    wanted = run.outcome.wanted.get(name)
     if samples.ndim > 1:
         off = np.linalg.norm(samples, axis=1)
     else:
@@ -133,7 +133,7 @@ def _off(one: Tried, name: str, reference: Array) -> Any:
     if wanted is not None:  # its own samples
         values = off if samples.ndim > 1 else samples
         curve |= {
-            "times": few_digits(one.pair.sampled.times[kept]),
+            "times": few_digits(run.pair.sampled.times[kept]),
             "values": few_digits(values[kept]),
         }
     return curve

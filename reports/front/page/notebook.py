@@ -54,11 +54,11 @@ def drawn(
             band = right - allowed[quantity], right + allowed[quantity]
             axes.fill_between(right.index, *band, color="black", alpha=0.12, lw=0)
         low, high = axes.get_ylim()
-        for one in shown:
-            found = motions[one.engine, one.setting, one.realised][quantity]
-            every_fifth = max(1, len(found) // 5)
-            look = {"ms": 4, "markevery": every_fifth, **style(one, shown)}
-            axes.plot(found.index, found, lw=1.3, label=one.title, **look)
+        for column in shown:
+            series = motions[column.engine, column.setting, column.realised][quantity]
+            every_fifth = max(1, len(series) // 5)
+            look = {"ms": 4, "markevery": every_fifth, **style(column, shown)}
+            axes.plot(series.index, series, lw=1.3, label=column.title, **look)
         room = high - low  # an engine that is lost leaves the picture
         bottom, top = axes.get_ylim()
         axes.set_ylim(max(bottom, low - room), min(top, high + room))

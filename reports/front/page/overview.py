@@ -35,7 +35,7 @@ def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[st
     many = bool(shares) and len({row.case for row in folder.comparisons}) > 1
     return {
         "cases": len({row.case for row in folder.comparisons}),
-        "shares": [_share(one, cells) for one in columns],
+        "shares": [_share(column, cells) for column in columns],
         "result": result(folder.comparisons) if many else result_of_one(cells),
         "picture": svg(drawn(folder.comparisons, small=True), PICTURE) if many else "",
         "legend": [_key(curve) for curve in shares] if many else [],
@@ -54,18 +54,18 @@ def _key(curve: Curve) -> dict[str, str]:
 
 def result(rows: Sequence[Comparison]) -> str:
     """Says in one sentence in how many cases each engine keeps every quantity, by setting."""
-    found = worst(rows)
-    order = sorted(found, key=lambda key: (key[0], place(key[1])))
+    worst_ratios = worst(rows)
+    order = sorted(worst_ratios, key=lambda key: (key[0], place(key[1])))
     engines = []
     for k, (engine, keys) in enumerate(groupby(order, key=lambda key: key[0])):
-        told = []
+        parts = []
         for _, setting in keys:
-            ratios = found[engine, setting]
+            ratios = worst_ratios[engine, setting]
             within = f"{sum(ratio <= 1 for ratio in ratios)} of {len(ratios)}"
-            noun = "" if k or told else " case" if len(ratios) == 1 else " cases"
-            told.append(f"{within}{noun} {_said(setting)}")
+            noun = "" if k or parts else " case" if len(ratios) == 1 else " cases"
+            parts.append(f"{within}{noun} {_setting_text(setting)}")
         keeps = "" if k else " keeps every quantity within the textbook’s tolerance"
-        engines.append(f"{engine}{keeps} in {_listed(told)}")
+        engines.append(f"{engine}{keeps} in {_joined(parts)}")
     return f"{'; '.join(engines)}." if engines else "No case ran in any engine."
 
 
@@ -77,16 +77,16 @@ def result_of_one(cells: Cells) -> str:
         ran = [(at, cells[at]) for at in of if cells[at].kind != REFUSED]
         within = [_as(column) for (_, column), cell in ran if cell.within == cell.judged]
         off = [
-            f"{_as(column)} ({_far(cell)})"
+            f"{_as(column)} ({_worst_text(cell)})"
             for (_, column), cell in ran
             if cell.within != cell.judged
         ]
         what = "them" if said else f"all quantities of {own[0][0]} within their tolerances"
         if within:
-            said.append(f"{engine} keeps {what} {_listed(within)}")
-            said[-1] += f", but not {_listed(off, 'or')}" if off else ""
+            said.append(f"{engine} keeps {what} {_joined(within)}")
+            said[-1] += f", but not {_joined(off, 'or')}" if off else ""
         elif off:
-            said.append(f"{engine} does not keep {what} {_listed(off, 'or')}")
+            said.append(f"{engine} does not keep {what} {_joined(off, 'or')}")
         else:
             said.append(f"{engine} does not support this scene")
     return f"{'; '.join(said)}." if said else "The case ran in no engine."
@@ -98,18 +98,18 @@ def _order(column: Column) -> tuple[str, float, str]:
 
 def _as(column: Column) -> str:
     way = spoken(column.realised)
-    return _said(column.setting) + (f" with {way}" if way else "")
+    return _setting_text(column.setting) + (f" with {way}" if way else "")
 
 
-def _far(cell: Cell) -> str:
+def _worst_text(cell: Cell) -> str:
     return f"{cell.worst} {factor(cell.ratio)}" if cell.worst and cell.ratio else cell.text
 
 
-def _said(setting: str) -> str:
+def _setting_text(setting: str) -> str:
     return SHIPPED.get(setting, setting if setting == "tuned" else f"with {setting}")
 
 
-def _listed(words: Sequence[str], last: str = "and") -> str:
+def _joined(words: Sequence[str], last: str = "and") -> str:
     return f" {last} ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 
@@ -131,7 +131,7 @@ def moving(
         {
             "case": name,
             "against": SAID[motions[name]["against"]],
-            "ghosts": [_off(key, name, cells) for key in _first(motions[name])],
+            "ghosts": [_ghost(key, name, cells) for key in _first(motions[name])],
         }
         for name in chosen[: len(FIRST)]
     ]
@@ -146,7 +146,7 @@ def _first(motion: Motion) -> list[str]:
     return [key for key in motion["ghosts"] if key.split(".")[1:] == [setting, NATIVE]]
 
 
-def _off(key: str, case: str, cells: Cells) -> dict[str, str]:
+def _ghost(key: str, case: str, cells: Cells) -> dict[str, str]:
     column = Column(*key.split("."))
     cell = cells.get((case, column))
     far = f"×{cell.text} the tolerance in {cell.worst}" if cell and cell.worst else ""

@@ -54,14 +54,14 @@ def page(
     every, results = columns(folder.comparisons), cells(folder.comparisons, folder.rungs)
     named = {row.case for row in folder.comparisons}
     scenes = of_cases(folder)
-    shown, found = columns(scenes.comparisons), cells(scenes.comparisons, scenes.rungs)
-    mapped = [one for one in shown if one.engine != BOOK] or shown
+    shown, case_cells = columns(scenes.comparisons), cells(scenes.comparisons, scenes.rungs)
+    mapped = [column for column in shown if column.engine != BOOK] or shown
     about = {case.name: themes(case) for case in cases}
-    told = [case for case in sorted(cases, key=lambda case: case.name) if case.name in named]
+    ran = [case for case in sorted(cases, key=lambda case: case.name) if case.name in named]
     template = _environment().get_template("page.html")
     return template.render(
         run=folder.run,
-        head=overview(scenes, found, shown),
+        head=overview(scenes, case_cells, shown),
         models=models_section(folder.models, models, every, results),
         releases=sorted({(r.engine, r.version) for r in folder.comparisons if r.engine != BOOK}),
         moving=moving(motions, about, results),
@@ -72,14 +72,14 @@ def page(
         versions=beside.versions(folder.beside.get("versions.csv")),
         names=named,
         work=bool(scenes.steps),
-        engines=list(dict.fromkeys(one.engine for one in mapped)),
-        groups=[(name, len(list(of))) for name, of in groupby(one.engine for one in mapped)],
+        engines=list(dict.fromkeys(column.engine for column in mapped)),
+        groups=[(name, len(list(of))) for name, of in groupby(column.engine for column in mapped)],
         columns=mapped,
-        kinds=sorted({cell.kind for cell in found.values()}),
+        kinds=sorted({cell.kind for cell in case_cells.values()}),
         shades=_shades(),
-        heat=[_line(case, mapped, found, about[case.name]) for case in told],
-        stick_slip=stick_slip(told, motions),
-        files=listed(told, shown, found, about),
+        heat=[_line(case, mapped, case_cells, about[case.name]) for case in ran],
+        stick_slip=stick_slip(ran, motions),
+        files=listed(ran, shown, case_cells, about),
         trust=trust(scenes),
         style=_text(f"{name}.css" for name in STYLES),
         script=_text(f"{name}.js" for name in SCRIPTS),
@@ -110,15 +110,15 @@ def _environment() -> Environment:
 
 def _anchor(name: str) -> str:
     """Returns the id of a case's section, which no other part of the page has."""
-    return f"case {name}" if name in _taken() else name
+    return f"case {name}" if name in _own_ids() else name
 
 
 @cache
-def _taken() -> frozenset[str]:
+def _own_ids() -> frozenset[str]:
     """Returns the ids of the page's own parts."""
     templates = (files(__package__ or "") / "templates").iterdir()
-    told = [file.read_text(encoding="utf-8") for file in templates if file.name.endswith(".html")]
-    return frozenset(re.findall(r' id="([\w-]+)"', "".join(told)))
+    texts = [file.read_text(encoding="utf-8") for file in templates if file.name.endswith(".html")]
+    return frozenset(re.findall(r' id="([\w-]+)"', "".join(texts)))
 
 
 def _breakable(name: str) -> Markup:
@@ -147,13 +147,13 @@ def _shades() -> list[str]:
 
 
 def _line(
-    case: Case, shown: Sequence[Column], found: Mapping[Any, Cell], about: Sequence[str]
+    case: Case, shown: Sequence[Column], cells: Mapping[Any, Cell], about: Sequence[str]
 ) -> dict[str, Any]:
     return {
         "case": case.name,
         "title": case.title,
         "themes": " ".join(about),
-        "cells": [(one, found.get((case.name, one))) for one in shown],
+        "cells": [(column, cells.get((case.name, column))) for column in shown],
     }
 
 
@@ -221,6 +221,6 @@ def write_measured(report: Report, out: Path, *, overwrite: bool = False) -> Non
     unasked(out, [*frames, run_list.NAME, NAME], overwrite=overwrite)
     with temporary_folder("textmech-page-") as made:
         write.write(frames, made)
-        found = folder(made, beside=out)
-    made_of = page(found, report.cases, motions(report), report.models)
+        contents = folder(made, beside=out)
+    made_of = page(contents, report.cases, motions(report), report.models)
     replace(out, lambda: write.texts(frames, out) | {NAME: made_of})

@@ -40,7 +40,7 @@ def style(column: Column, among: Iterable[Column]) -> dict[str, Any]:
 
     As shipped its markers are hollow, as recommended half filled, tuned they are full.
     """
-    own = sorted({(one.engine, one.setting) for one in among if one.own})
+    own = sorted({(other.engine, other.setting) for other in among if other.own})
     way = WAYS.get(column.realised)
     if column.own:
         code, marker, dash = OWN[own.index((column.engine, column.setting)) % len(OWN)]

@@ -40,13 +40,13 @@ def picture(
     axes = figure.subplots(2, 2)
     figure.suptitle(f"{name}: {quantity}", fontsize=12, x=0.01, ha="left")
     shown = list(dict.fromkeys(column(row) for row in own if row.error is not None))
-    strobe(axes[0, 0], motion, [one for one in shown if one.key in motion["ghosts"]])
+    strobe(axes[0, 0], motion, [column for column in shown if column.key in motion["ghosts"]])
     if motion["against"] == LIMIT:
         axes[0, 0].set_title("\n".join(_worst(rows)), fontsize=9, loc="left")
     curves = motion["curves"]["quantities"].get(quantity)
     if curves is None:
-        for one in (axes[0, 1], axes[1, 0]):
-            one.set_axis_off()
+        for panel in (axes[0, 1], axes[1, 0]):
+            panel.set_axis_off()
     else:
         unit = own[0].unit if own else ""
         times = np.array(motion["curves"]["times"])
@@ -54,15 +54,15 @@ def picture(
         _tube(axes[0, 1], times, curves, shown, allowed, label, motion["against"])
         _error(axes[1, 0], times, curves, shown, allowed, own)
         if until := motion["curves"].get("until"):
-            for one in (axes[0, 1], axes[1, 0]):
-                one.axvspan(until, times[-1], hatch="//", fc="none", ec=INK, alpha=0.25, lw=0)
+            for panel in (axes[0, 1], axes[1, 0]):
+                panel.axvspan(until, times[-1], hatch="//", fc="none", ec=INK, alpha=0.25, lw=0)
             late = f"later than {until:.3g} s nothing is judged"
             axes[1, 0].set_title(late, loc="right", fontsize=9)
-    climbed = [one for one in steps if one.quantity == quantity]
+    climbed = [step for step in steps if step.quantity == quantity]
     _ladder(axes[1, 1], [rung for rung in rungs if rung.quantity == quantity], climbed, allowed)
     lines = {}
-    for one in axes.ravel()[1:]:
-        lines |= dict(zip(*reversed(one.get_legend_handles_labels()), strict=True))
+    for panel in axes.ravel()[1:]:
+        lines |= dict(zip(*reversed(panel.get_legend_handles_labels()), strict=True))
     place = {"loc": "outside lower left", "ncols": 3, "frameon": False, "fontsize": 9}
     figure.legend(lines.values(), lines, **place)
     return figure
@@ -71,14 +71,14 @@ def picture(
 def _worst(rows: Sequence[Comparison]) -> Iterator[str]:
     """Yields the worst quantity of each setting."""
     worst = {column(row): row for row in sorted(rows, key=lambda row: row.ratio or 0.0)}
-    for one in ordered(worst):
-        row = worst[one]
+    for shown in ordered(worst):
+        row = worst[shown]
         far = (
             spoken(row.verdict)
             if row.ratio is None
             else (f"{row.quantity} {factor(row.ratio)} of what is allowed")
         )
-        yield f"{one.setting}: {far}"
+        yield f"{shown.setting}: {far}"
 
 
 def _tube(
@@ -95,15 +95,15 @@ def _tube(
     axes.plot(times, reference, color=INK, lw=2, label=against)
     low, high = np.min(reference) - allowed, np.max(reference) + allowed
     bottom, top, away = low - ROOM * (high - low), high + ROOM * (high - low), []
-    for one, off in _off(curves, shown):
+    for shown_column, off in _errors_of(curves, shown):
         if "values" in off:  # at its own samples
             x, y = np.array(off["times"]), np.array(off["values"])
         else:
             x, y = times, reference + off["curve"]
-        _curve(axes, x, y, one, shown)
+        _curve(axes, x, y, shown_column, shown)
         if np.min(y) < bottom or np.max(y) > top:
             most = short(float(np.max(np.abs(off["curve"]))))
-            away.append(f"{one.title} leaves the picture: off by up to {most}")
+            away.append(f"{shown_column.title} leaves the picture: off by up to {most}")
     low, high = axes.get_ylim()
     axes.set_ylim(max(bottom, low), min(top, high))
     axes.text(0.01, 0.99, "\n".join(away), transform=axes.transAxes, va="top", fontsize=8)
@@ -118,14 +118,14 @@ def _error(
     allowed: float,
     rows: Sequence[Comparison],
 ) -> None:
-    for one, off in _off(curves, shown):
+    for shown_column, off in _errors_of(curves, shown):
         own = np.array(off.get("times", times))
         parts = np.abs(off["curve"]) / allowed
-        _curve(axes, own, np.maximum(parts, LEAST), one, shown)
+        _curve(axes, own, np.maximum(parts, LEAST), shown_column, shown)
     _bound(axes)
-    told = [row for row in rows if row.when is not None and row.ratio]
-    if told:
-        worst = max(told, key=lambda row: row.ratio or 0.0)
+    rated = [row for row in rows if row.when is not None and row.ratio]
+    if rated:
+        worst = max(rated, key=lambda row: row.ratio or 0.0)
         axes.plot([worst.when], [worst.ratio], "o", ms=10, mfc="none", color=INK)
         axes.annotate(
             f"{short(worst.ratio or 0.0)} × at {worst.when:.3g} s",
@@ -144,8 +144,8 @@ def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[StepError], allow
     both = len({rung.ladder for rung in rungs}) > 1
     for rung in rungs:
         own = [s for s in steps if (column(s), s.ladder) == (column(rung), rung.ladder)]
-        milliseconds = [1e3 * one.step for one in own]
-        parts = [one.error / allowed for one in own]
+        milliseconds = [1e3 * step.step for step in own]
+        parts = [step.error / allowed for step in own]
         order = "" if rung.order is None else f", order {rung.order:.2g}"
         label = f"{column(rung).title}{f', {rung.ladder}' if both else ''}{order}"
         look = {**style(column(rung), kinds), "lw": 1.0 if rung.ladder == "held" else 1.6, "ms": 4}
@@ -155,8 +155,8 @@ def _ladder(axes: Any, rungs: Sequence[Rungs], steps: Sequence[StepError], allow
     _bound(axes)
 
 
-def _off(curves: Any, shown: Sequence[Column]) -> list[tuple[Column, Any]]:
-    return [(one, curves["off"][one.key]) for one in shown if one.key in curves["off"]]
+def _errors_of(curves: Any, shown: Sequence[Column]) -> list[tuple[Column, Any]]:
+    return [(column, curves["off"][column.key]) for column in shown if column.key in curves["off"]]
 
 
 def _curve(axes: Any, x: Array, y: Array, of: Column, among: Sequence[Column]) -> None:
@@ -199,10 +199,10 @@ def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
         axes.plot(*trail.T, color=INK, lw=0.8, alpha=0.5)
     axes.set_aspect("equal", adjustable="datalim")
     limits = axes.dataLim.frozen()
-    for one in ghosts:
-        ends = {part: pose[-1] for part, (pose, _) in read(motion["ghosts"][one.key]).moves.items()}
-        code = style(one, ghosts)["color"]
-        _bodies(axes, motion, ends, color=code, ls="--", lw=1.3, label=one.title)
+    for way in ghosts:
+        ends = {part: pose[-1] for part, (pose, _) in read(motion["ghosts"][way.key]).moves.items()}
+        code = style(way, ghosts)["color"]
+        _bodies(axes, motion, ends, color=code, ls="--", lw=1.3, label=way.title)
     axes.dataLim.set(limits)  # what drifts far away is cut off
     axes.autoscale_view()
     for place in motion["sketch"]["ground"]:

@@ -115,13 +115,13 @@ def drawn(
 
 def _within(frame: Frame, reaches: Mapping[str, float], moves: Moves, close: float) -> Array:
     """How far off each column of all poses may be: a turn by what it moves the body's farthest."""
-    n, found = frame.dimension, list[float]()
+    n, margins = frame.dimension, list[float]()
     for part, (pose, _) in moves.items():
         turns = pose.shape[1] - n
         arm = reaches[part] if turns else 0.0
         turn = close / arm if arm else BARE
-        found += [close] * n + [turn if n == len(PLANE.axes) else turn / 2] * turns
-    return np.array(found)
+        margins += [close] * n + [turn if n == len(PLANE.axes) else turn / 2] * turns
+    return np.array(margins)
 
 
 def _needed(times: Array, moves: Moves, within: Array) -> NDArray[np.int64]:
@@ -148,12 +148,12 @@ def closer(case: Case, times: Array, states: Mapping[str, Array], size: float) -
     Else they would open joints, or lose a turn. Gaps fall with the fourth power of the parts.
     """
     frame, middle = case.scene.frame, (times[1:] + times[:-1]) / 2
-    found, needed = moves(states), [0.0]
-    for pose, _ in found.values() if frame is SPACE else ():
+    paths, needed = moves(states), [0.0]
+    for pose, _ in paths.values() if frame is SPACE else ():
         chords = np.linalg.norm(np.diff(pose[:, frame.attitude], axis=0), axis=1)
         needed.append(float(np.max(2 * chords)) / FAR)  # a quaternion goes half as far as its body
     rest = np.zeros((len(middle), frame.width - frame.attitude.stop))  # no gap asks for rates
-    between = {body: np.hstack([cubic(times, *found[body], middle), rest]) for body in found}
+    between = {body: np.hstack([cubic(times, *paths[body], middle), rest]) for body in paths}
     looked = Trajectory(
         np.append(times, middle),  # the samples first: of some rods the first has the length
         {body: np.vstack([states[body], between[body]]) for body in states},

@@ -32,7 +32,7 @@ class Words:
 
 def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
     """By case: comparisons, ladders, instants and certificates; words and columns by number."""
-    place: Mapping[Column, int] = {one: k for k, one in enumerate(columns)}
+    place: Mapping[Column, int] = {col: k for k, col in enumerate(columns)}
     words, cases = Words(), dict[str, dict[str, list[Any]]]()
     kinds = ("rows", "ladders", "instants", "checks", "causes")
 
@@ -46,13 +46,13 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
             _few(row.ratio), words.number(row.verdict), words.number(row.because),
         ])  # fmt: skip
     climbed: dict[tuple[str, Column, str, str], list[StepError]] = {}
-    for one in folder.steps:
-        climbed.setdefault((one.case, column(one), one.quantity, one.ladder), []).append(one)
+    for step in folder.steps:
+        climbed.setdefault((step.case, column(step), step.quantity, step.ladder), []).append(step)
     for rung in folder.rungs:
         steps = climbed.get((rung.case, column(rung), rung.quantity, rung.ladder), [])
         of(rung.case)["ladders"].append([
             place[column(rung)], words.number(rung.quantity), words.number(rung.ladder),
-            [_few(one.step) for one in steps], [_few(one.error) for one in steps],
+            [_few(step.step) for step in steps], [_few(step.error) for step in steps],
             _few(rung.order), _few(rung.limit), _few(rung.usable_step),
             words.number(OF_A_LADDER[rung.verdict]),
         ])  # fmt: skip
@@ -69,7 +69,7 @@ def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
         ])  # fmt: skip
     for cause in records(folder.beside.get("causes.csv", EMPTY), CURES):
         of(cause["case"])["causes"].append([words.number(cause[name]) for name in CURES[1:]])
-    return {"columns": [one.key for one in columns], "words": list(words.told), "cases": cases}
+    return {"columns": [col.key for col in columns], "words": list(words.told), "cases": cases}
 
 
 def _few(number: float | None, digits: str = DIGITS) -> float | str | None:

@@ -42,10 +42,10 @@ def extent(scene: Scene, poses: Mapping[str, Array]) -> float:
 
 def _forces(scene: Scene) -> list[dict[str, Any]]:
     """Returns the links of forces that act along a line through two points or more."""
-    found = [(force, force.refers()) for force in scene.forces.values()]
+    pairs = [(force, force.refers()) for force in scene.forces.values()]
     return [
         {"kind": _kind(force.word), "ends": [_end(scene, end) for end in ends], **_one_sided(force)}
-        for force, ends in found
+        for force, ends in pairs
         if len(ends) > 1
     ]
 
@@ -82,11 +82,11 @@ def _end(scene: Scene, anchor: Anchor) -> list[Any]:
 def _joint(scene: Scene, joint: Any) -> dict[str, Any]:
     """Its place on its second part, and the line on its first along which that may shift."""
     ends = joint.refers()
-    found: dict[str, Any] = {"at": _end(scene, ends[-1])}
+    entry: dict[str, Any] = {"at": _end(scene, ends[-1])}
     along = _along(joint)
     if along is not None:
-        found["rail"] = [*_end(scene, ends[0]), rounded(along)]
-    return found
+        entry["rail"] = [*_end(scene, ends[0]), rounded(along)]
+    return entry
 
 
 def _along(joint: Any) -> Any:
@@ -106,8 +106,8 @@ def _planes(scene: Scene) -> list[dict[str, Any]]:
     if scene.frame.dimension == 3:
         return [{"floor": FLOOR}] if scene.contacts or scene.constraints else []
     planes = {getattr(contact, "plane", None) for contact in scene.contacts.values()} - {None}
-    told = sorted((plane.name, plane) for plane in planes if plane is not None)
-    return [{"at": rounded(plane.at), "along": rounded(plane.along)} for _, plane in told]
+    named = sorted((plane.name, plane) for plane in planes if plane is not None)
+    return [{"at": rounded(plane.at), "along": rounded(plane.along)} for _, plane in named]
 
 
 # Makes the lines with which the page draws a body, in its own axes, whatever its shape.

@@ -42,16 +42,16 @@ def worst(rows: Iterable[Comparison], steps: Iterable[StepError]) -> Steps:
     It is the one whose tuned numbers follow the step, or else the one where they are held.
     """
     allowed = {(row.case, column(row), row.quantity): row.allowed for row in rows}
-    found: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
-    for one in steps:
-        allow = allowed.get((one.case, column(one), one.quantity))
-        if not allow or one.engine == "book":
+    by_case: dict[tuple[str, Column], dict[str, dict[float, float]]] = {}
+    for step in steps:
+        allow = allowed.get((step.case, column(step), step.quantity))
+        if not allow or step.engine == "book":
             continue
-        at = found.setdefault((one.case, column(one)), {}).setdefault(one.ladder, {})
-        at[one.step] = max(at.get(one.step, 0.0), one.error / allow)
+        at = by_case.setdefault((step.case, column(step)), {}).setdefault(step.ladder, {})
+        at[step.step] = max(at.get(step.step, 0.0), step.error / allow)
     return {
         at: ladders["following" if "following" in ladders else "held"]
-        for at, ladders in found.items()
+        for at, ladders in by_case.items()
     }
 
 
@@ -86,9 +86,9 @@ def profile(
             and (other.engine, other.setting) == (of.engine, of.setting)
             and of.realised in (ANY, other.realised)
         ]
-        found = [h for ladder in ways if (h := enough(ladder, precision))]
-        if found:
-            steps.append(1 / max(found))
+        allowed = [h for ladder in ways if (h := enough(ladder, precision))]
+        if allowed:
+            steps.append(1 / max(allowed))
     corners = sorted(set(steps))
     shares = [100 * sum(step <= x for step in steps) / len(cases) for x in corners]
     corners = [min(max(float(f"{x:.4g}"), LEAST), MOST) for x in corners]

@@ -69,7 +69,7 @@ def test_a_ladder_is_of_errors_over_what_is_allowed() -> None:
     steps, errors = drawn()
     assert steps == [1.0, 2.0]  # ms
     assert errors == pytest.approx([0.1, 5.0])  # beyond from 1 on, as the line says
-    bare = otherwise(picture, "one.error / allowed", "one.error")
+    bare = otherwise(picture, "step.error / allowed", "step.error")
     assert drawn(bare)[1] == pytest.approx([1e-3, 5e-2])
 
 

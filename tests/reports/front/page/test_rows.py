@@ -74,7 +74,7 @@ def test_every_number_stands_in_its_column() -> None:
     [
         ("rms told as the largest error", "_few(row.error)", "_few(row.rms)"),
         ("bound told as what is certified", "_few(check.certified)", "_few(check.bound)"),
-        ("errors of a ladder told as its steps", "_few(one.error)", "_few(one.step)"),
+        ("errors of a ladder told as its steps", "_few(step.error)", "_few(step.step)"),
         (
             "steps of a ladder told with those of the other",
             "rung.quantity, rung.ladder)",
@@ -376,7 +376,7 @@ a    mujoco 3.9.0   tuned   x        7     beyond  -
         return [(row[2], row[-1]) for row in found["moved"]]
 
     assert told() == [("4.0.0", "0.2"), ("3.10.0", "0.1")]
-    own = otherwise(beside, 'found[k] = last.get(of, "")', 'found[k] = rows[k]["error"]')
+    own = otherwise(beside, 'before[k] = last.get(of, "")', 'before[k] = rows[k]["error"]')
     assert told(own) == [("4.0.0", "0.3"), ("3.10.0", "0.2")]
 
 
