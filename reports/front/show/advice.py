@@ -20,101 +20,101 @@ from ...tables.short_numbers import factor, milliseconds
 HEADS = {BOTH: "fewest changes, and cheapest"}
 
 
-def shipped_lines(one: Advised) -> Iterator[str]:
+def shipped_lines(advised: Advised) -> Iterator[str]:
     """Yields what a person sees of one case in one engine as shipped, before any search."""
     yield ""
-    if one.search is None:
-        yield f"{_name(one)}: refused: {rows(one)[0].remains}"
+    if advised.search is None:
+        yield f"{_name(advised)}: refused: {rows(advised)[0].remains}"
         return
-    yield f"{_name(one)}, as shipped, {milliseconds(one.shipped.step)}"
-    yield from _measured_on(one)
-    yield from _found(one, one.shipped)
+    yield f"{_name(advised)}, as shipped, {milliseconds(advised.shipped.step)}"
+    yield from _measured_on(advised)
+    yield from _number_lines(advised, advised.shipped)
 
 
-def stopped_lines(one: Advised) -> Iterator[str]:
+def stopped_lines(advice: Advised) -> Iterator[str]:
     """Yields the nearest of all that was tried before the search was interrupted."""
-    for candidate in one.pasted:
-        runs = 0 if one.search is None else len(one.search.runs.known)
+    for candidate in advice.pasted:
+        runs = 0 if advice.search is None else len(advice.search.runs.known)
         yield ""
-        yield f"{_name(one)}: interrupted after {runs} run{'s' * (runs > 1)}; the nearest so far"
-        yield from _found(one, candidate)
-        yield from _paste(one, candidate)
+        yield f"{_name(advice)}: interrupted after {runs} run{'s' * (runs > 1)}; the nearest so far"
+        yield from _number_lines(advice, candidate)
+        yield from _paste(advice, candidate)
 
 
-def _name(one: Advised) -> str:
-    return f"{one.pair.case.name} in {one.pair.engine.name} {one.pair.engine.version}"
+def _name(advised: Advised) -> str:
+    return f"{advised.pair.case.name} in {advised.pair.engine.name} {advised.pair.engine.version}"
 
 
-def advice_lines(one: Advised) -> Iterator[str]:
+def advice_lines(advised: Advised) -> Iterator[str]:
     """Yields the advice on one case in one engine, line by line."""
-    if one.search is None:
+    if advised.search is None:
         return
-    tolerance, margin = one.asked.tolerance, one.asked.margin
+    tolerance, margin = advised.asked.tolerance, advised.asked.margin
     within = "its tolerances" if tolerance is None else f"{tolerance:g} of its size"
     yield ""
-    yield f"{_name(one)}: all within {within} / {margin:g}"
-    if one.recipes is None:
-        yield f"  no recipe: {rows(one)[0].remains}"
-        if ours := " and ".join(one.search.candidates.ours):
+    yield f"{_name(advised)}: all within {within} / {margin:g}"
+    if advised.recipes is None:
+        yield f"  no recipe: {rows(advised)[0].remains}"
+        if ours := " and ".join(advised.search.candidates.ours):
             yield f"    not tried, for it takes our adapter, as `run --causes` does: {ours}"
-        for candidate in one.pasted:
+        for candidate in advised.pasted:
             yield "  the nearest"
-            yield from _found(one, candidate)
-            yield from _paste(one, candidate)
-    for want, recipe in one.wanted:
+            yield from _number_lines(advised, candidate)
+            yield from _paste(advised, candidate)
+    for want, recipe in advised.wanted:
         step = milliseconds(recipe.candidate.step)
         yield f"  {HEADS.get(want, want)}: {words(recipe.choice)}, {step}"
-        yield from _recipe(one, recipe)
-    if one.asked.front:
+        yield from _recipe(advised, recipe)
+    if advised.asked.front:
         yield "  cost against error, each point a fifth better at least than what costs less"
-        yield from (f"    {line}" for line in _front(one))
+        yield from (f"    {line}" for line in _front(advised))
 
 
-def _measured_on(one: Advised) -> Iterator[str]:
+def _measured_on(advised: Advised) -> Iterator[str]:
     """Yields whose shapes the numbers belong to, where something touches."""
-    engine = one.pair.engine
-    if one.shapes:
-        yield f"  measured as a user has it: {one.shapes[0].words}"
-        trial = trial_of(one.pair, one.shipped)
+    engine = advised.pair.engine
+    if advised.shapes:
+        yield f"  measured as a user has it: {advised.shapes[0].words}"
+        trial = trial_of(advised.pair, advised.shipped)
         if trial and trial.withheld:
             yield f"    {', '.join(trial.withheld)} not read there"
-    elif isinstance(engine, Plain) and (ours := engine.own_contacts(one.pair.case.scene)):
+    elif isinstance(engine, Plain) and (ours := engine.own_contacts(advised.pair.case.scene)):
         yield f"  measured in our model alone, where {ours}"
 
 
-def _recipe(one: Advised, recipe: Recipe) -> Iterator[str]:
-    assert one.search is not None
+def _recipe(advised: Advised, recipe: Recipe) -> Iterator[str]:
+    assert advised.search is not None
     candidate = recipe.candidate
-    yield from _found(one, candidate)
-    if candidate in (cut := one.search.elsewhere) and not one.shapes:
+    yield from _number_lines(advised, candidate)
+    if candidate in (cut := advised.search.elsewhere) and not advised.shapes:
         yield f"    with the loop cut at other joints at most {factor(cut[candidate])}"
-    cost = one.search.cost(candidate) / one.search.cost(one.shipped)
-    measured = ratio(one.pair, candidate, one.shipped)
+    cost = advised.search.cost(candidate) / advised.search.cost(advised.shipped)
+    measured = ratio(advised.pair, candidate, advised.shipped)
     beside = "" if measured is None else f", measured here ×{measured:.2g}"
     yield f"    costs ×{cost:.2g} of shipped{beside}"
-    yield from _paste(one, candidate)
+    yield from _paste(advised, candidate)
 
 
-def _paste(one: Advised, candidate: Candidate) -> Iterator[str]:
+def _paste(advised: Advised, candidate: Candidate) -> Iterator[str]:
     """Yields what it gives on the other shapes that a user may have, and what to paste."""
-    engine, scene = one.pair.engine, one.pair.case.scene
+    engine, scene = advised.pair.engine, advised.pair.case.scene
     assert isinstance(engine, Tunable)
-    for shape, worst, quantity in one.beside.get(candidate, ()):
+    for shape, worst, quantity in advised.beside.get(candidate, ()):
         lost = f"{quantity} {factor(worst)}" if quantity else "every quantity is lost"
         yield f"    where {shape}: {lost}"
     yield "    to paste"
-    start = first(one.pair.reference())
-    options = candidate.on(one.pair.shapes).options
+    start = first(advised.pair.reference())
+    options = candidate.on(advised.pair.shapes).options
     lines = engine.snippet(scene, start, options, candidate.step).rstrip().splitlines()
     yield from (f"      {line}" for line in lines)
     yield "    as a file of --settings"
-    yield f"      {settings(one.pair, candidate)}"
+    yield f"      {settings(advised.pair, candidate)}"
 
 
-def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
+def _number_lines(advised: Advised, candidate: Candidate) -> Iterator[str]:
     """Yields the numbers that a person asks for, in words, and the worst judged quantity."""
-    assert one.search is not None
-    trial = trial_of(one.pair, candidate)
+    assert advised.search is not None
+    trial = trial_of(advised.pair, candidate)
     try:
         numbers = plain(trial) if trial else []
     except Diverged as gone:
@@ -122,7 +122,7 @@ def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
         return
     if numbers:
         yield f"    {'; '.join(map(str, numbers))}"
-    worst, quantity = one.search.worst(candidate)
+    worst, quantity = advised.search.worst(candidate)
     yield (
         f"    worst: {quantity} {factor(worst)} of what is allowed"
         if quantity
@@ -130,12 +130,12 @@ def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
     )
 
 
-def _front(one: Advised) -> Sequence[str]:
-    assert one.search is not None
+def _front(advised: Advised) -> Sequence[str]:
+    assert advised.search is not None
     return [
-        f"{one.search.cost(candidate):9.4g} /s  ×{worst:<8.2g} {quantity:20} "
+        f"{advised.search.cost(candidate):9.4g} /s  ×{worst:<8.2g} {quantity:20} "
         f"h = {candidate.step:.3g} s  {as_text(candidate.options)}"
-        for candidate, worst, quantity in front(one.search)
+        for candidate, worst, quantity in front(advised.search)
     ]
 
 
@@ -151,7 +151,7 @@ def ratio(pair: Pair, candidate: Candidate, over: Candidate) -> float | None:
     one, other = (trial_of(pair, each) for each in (candidate, over))
     if one is None or other is None:
         return None
-    measured = [(_whole(one), _begun(one), _whole(other), _begun(other)) for _ in range(ROUNDS)]
+    measured = [(_whole(one), _setup(one), _whole(other), _setup(other)) for _ in range(ROUNDS)]
     mine, built, others, too = (min(column) for column in zip(*measured, strict=True))
     return (mine - built) / (others - too)
 
@@ -160,7 +160,7 @@ def _whole(trial: Trial) -> float:
     return _seconds(trial, trial.case.duration)
 
 
-def _begun(trial: Trial) -> float:
+def _setup(trial: Trial) -> float:
     """CPU time [s] of building alone, and one step: to be taken off."""
     return _seconds(trial, trial.step)
 

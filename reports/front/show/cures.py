@@ -55,21 +55,21 @@ def carried(causes: Iterable[Cause], known: Mapping[Key, Sequence[Cause]]) -> st
     for cause in causes:
         if cause.searched_with:
             searched.setdefault(key_of(cause), []).append(cause)
-    count = sum(known.get(key) == told for key, told in searched.items())
-    left = len(searched) - count
-    told = f"causes: {count} rows keep the committed ones, as nothing they depend on has changed"
-    return f"{told}; {left} were searched anew" if count else ""
+    count = sum(known.get(key) == rows for key, rows in searched.items())
+    anew = len(searched) - count
+    words = f"causes: {count} rows keep the committed ones, as nothing they depend on has changed"
+    return f"{words}; {anew} were searched anew" if count else ""
 
 
 def _joined(rows: Iterable[tuple[Any, ...]]) -> Cures:
-    told: dict[tuple[str, str, str, str], list[str]] = {}
+    cures: dict[tuple[str, str, str, str], list[str]] = {}
     for case, engine, setting, quantity, cure, step in rows:
         if cure != UNSEARCHED:
-            told.setdefault((case, engine, setting, quantity), []).append(_told(cure, step))
-    return {key: " or ".join(words[:MOST]) for key, words in told.items()}
+            cures.setdefault((case, engine, setting, quantity), []).append(_cure_text(cure, step))
+    return {key: " or ".join(words[:MOST]) for key, words in cures.items()}
 
 
-def _told(cure: str, step: str | float | None) -> str:
+def _cure_text(cure: str, step: str | float | None) -> str:
     """With the step, where that is what is changed; a law or driver of ours by its short name."""
     if cure.startswith(OURS):
         return next(word for word in OURS if cure.startswith(word))

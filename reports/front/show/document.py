@@ -54,8 +54,8 @@ def of_run(
 
 def of_causes(causes: "Sequence[Cause]", wrong: Sequence[Mistake], *, exit_code: int) -> Document:
     """Returns the document of `textmech causes`."""
-    found = [asdict(cause) for cause in causes]
-    return {"causes": found, "mistakes": mistakes(wrong), "exit_code": exit_code}
+    rows = [asdict(cause) for cause in causes]
+    return {"causes": rows, "mistakes": mistakes(wrong), "exit_code": exit_code}
 
 
 def of_cases(cases: "Sequence[Titled]") -> Document:
@@ -76,11 +76,11 @@ def of_cases(cases: "Sequence[Titled]") -> Document:
     }
 
 
-def mistakes(found: Sequence[Mistake]) -> list[dict[str, Any]]:
+def mistakes(wrong: Sequence[Mistake]) -> list[dict[str, Any]]:
     """Each with its place; line and column count from 1, and 0 is the whole file."""
     return [
         {"file": m.file, "line": m.line, "column": m.column, "field": m.where, "what": m.what}
-        for m in found
+        for m in wrong
     ]
 
 

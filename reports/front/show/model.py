@@ -97,5 +97,5 @@ def _line(model: Modelled, stepped: Stepped, rows: Sequence[Comparison]) -> str:
     if worst.verdict == REFUSED:
         keeps = worst.because
     when = "" if worst.when is None else f"{worst.when:.3g} s"
-    told = f"{head}  {worst.quantity:24} {size:>11} {when:>7} {ratio:>11}"
-    return f"{told}  {'' if order is None else f'{order:.1f}':>5}  {keeps}"
+    columns = f"{head}  {worst.quantity:24} {size:>11} {when:>7} {ratio:>11}"
+    return f"{columns}  {'' if order is None else f'{order:.1f}':>5}  {keeps}"

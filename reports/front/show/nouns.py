@@ -78,10 +78,10 @@ def _noun(kind: type) -> Iterator[str]:
     if isinstance(word, str):
         yield f"In a case file `{word}`.\n"
     yield f"{_text(kind)}\n"
-    found = described(kind)
-    if found:
+    fields = described(kind)
+    if fields:
         rows = [
-            [f"`{name}`", f"`{_cell(of)}`", unit, _cell(said)] for name, of, unit, said in found
+            [f"`{name}`", f"`{_cell(of)}`", unit, _cell(said)] for name, of, unit, said in fields
         ]
         yield markdown([["field", "type", "unit", "what it is"], *rows])
     methods = [[f"`{name}`", _cell(said)] for name, said in _members(kind)]
@@ -91,28 +91,28 @@ def _noun(kind: type) -> Iterator[str]:
 
 def described(kind: type) -> list[tuple[str, str, str, str]]:
     """Returns name, type, unit and meaning of each field of a noun: empty where nobody says it."""
-    told: dict[str, tuple[str, str, str]] = {}
+    entries: dict[str, tuple[str, str, str]] = {}
     for base in reversed(kind.__mro__[:-1]):
         own = _fields(base) if base.__module__.startswith("textmech") else {}
         for name, (type_, unit, said) in own.items():
-            _, older_unit, older = told.get(name, ("", "", ""))
-            told[name] = type_, unit or older_unit, said or older
+            _, older_unit, older = entries.get(name, ("", "", ""))
+            entries[name] = type_, unit or older_unit, said or older
     names = [f.name for f in fields(kind)] if hasattr(kind, "__dataclass_fields__") else []
-    said = _named(kind)
-    return [(n, *told[n][:2], said.get(n) or told[n][2]) for n in names if n in told]
+    said = _field_texts(kind)
+    return [(n, *entries[n][:2], said.get(n) or entries[n][2]) for n in names if n in entries]
 
 
 def _fields(kind: type) -> dict[str, tuple[str, str, str]]:
     """Type, unit and meaning of the fields that the class itself declares."""
     tree, lines = _source(kind)
-    found = {}
+    cells = {}
     for node, after in zip(tree.body, [*tree.body[1:], None], strict=True):
         if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
             type_, unit = _annotated(node.annotation)
             said = " ".join(_comments(lines, node)) or _string(after)
             name = node.target.id
-            found[name] = type_, unit or _unit(said), said or ("its name" if name == "name" else "")
-    return found
+            cells[name] = type_, unit or _unit(said), said or ("its name" if name == "name" else "")
+    return cells
 
 
 def _comments(lines: list[str], node: ast.AST) -> Iterator[str]:
@@ -139,12 +139,12 @@ def _unit(said: str) -> str:
     """The unit that a comment gives, in brackets or behind a comma; of two both."""
     if brackets := re.search(r"\[([^\]]+)\]", said):
         return brackets[1]
-    one = r"(?:kg m²|kg|m/s²|m/s|rad/s|s/m|rad|N m|N|m|s)"
-    units = re.search(rf"(?<![\w.]){one}(?: or {one})?(?=[,;:.]|$)", said)
+    unit = r"(?:kg m²|kg|m/s²|m/s|rad/s|s/m|rad|N m|N|m|s)"
+    units = re.search(rf"(?<![\w.]){unit}(?: or {unit})?(?=[,;:.]|$)", said)
     return units[0] if units else ""
 
 
-def _named(kind: type) -> dict[str, str]:
+def _field_texts(kind: type) -> dict[str, str]:
     """Returns what a docstring says of fields by name: `along: unit vector in body axes.`"""
     text = " ".join(_text(kind).split())
     names = "|".join(f.name for f in fields(kind)) if hasattr(kind, "__dataclass_fields__") else ""
@@ -179,10 +179,10 @@ def _joints() -> str:
     plane = [
         [
             f"`{kind}`",
-            ", ".join(sorted(freedom.kind for freedom in left)) or "none",
-            ", ".join(f"`{w}`" for f in left if f.name for w in (f.name, f.rate, f.effort)),
+            ", ".join(sorted(freedom.kind for freedom in freedoms)) or "none",
+            ", ".join(f"`{w}`" for f in freedoms if f.name for w in (f.name, f.rate, f.effort)),
         ]
-        for kind, left in FREEDOMS.items()
+        for kind, freedoms in FREEDOMS.items()
     ]
     space = [[f"`{kind}`", _cell(_text(made))] for kind, made in KINDS[3].items()]
     return (
@@ -202,8 +202,8 @@ def _quantities() -> str:
     for kind in (kind for kinds in PARTS.values() for kind in kinds):
         module = inspect.getmodule(kind)
         if kind.__name__ in OBSERVED and module is not None:
-            rows += [[kind.__name__, *told] for told in _told(inspect.getsource(module))]
-    rows += [["the scene", *told] for told in _told(inspect.getsource(quantity), "_ENERGY")]
+            rows += [[kind.__name__, *row] for row in _quantity_rows(inspect.getsource(module))]
+    rows += [["the scene", *row] for row in _quantity_rows(inspect.getsource(quantity), "_ENERGY")]
     return markdown(rows)
 
 
@@ -211,7 +211,7 @@ OBSERVED = [kind.__name__ for kind in (Body, Joint, Contact, Pair, Edge)]
 """The nouns beside which their file has what can be observed of them."""
 
 
-def _told(source: str, only: str = "") -> Iterator[list[str]]:
+def _quantity_rows(source: str, only: str = "") -> Iterator[list[str]]:
     """The quantities that a file declares: name, unit, and what the line says behind them."""
     lines = source.splitlines()
     for node in ast.parse(source).body:

@@ -96,7 +96,7 @@ def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
             worst = cases.setdefault((row.engine, row.setting), {})
             ratio = inf if row.ratio is None else row.ratio
             worst[row.case] = max(worst.get(row.case, 0.0), ratio)
-    return {key: sorted(found.values()) for key, found in sorted(cases.items())}
+    return {key: sorted(ratios.values()) for key, ratios in sorted(cases.items())}
 
 
 def _curve(axes: Axes, curve: Curve) -> None:

@@ -47,8 +47,8 @@ def speed() -> str:
     """A sentence, of the last time that `make speed` was run."""
     with (HERE / SPEED).open(encoding="utf-8", newline="") as lines:
         wall = {row["what"]: float(row["wall"]) for row in csv.DictReader(lines)}
-    told = ", ".join(words.format(_about(wall[what])) for what, words in TOLD.items())
-    return fill(f"On a server with two cores: {told}.", WIDTH) + "\n"
+    times = ", ".join(words.format(_about(wall[what])) for what, words in TOLD.items())
+    return fill(f"On a server with two cores: {times}.", WIDTH) + "\n"
 
 
 def _about(seconds: float) -> str:
@@ -76,16 +76,16 @@ def releases(rows: Sequence[Row]) -> str:
     files = sorted({row["case"].partition(".")[0] for row in rows})
     frames = {load(of_the_book()[name])[0].scene.frame for name in files}
     where = "all of the plane" if frames == {PLANE} else "of the plane and of space"
-    lines = [fill(f"The table sweeps these cases, {where}: {_named(files)}.", WIDTH), ""]
+    lines = [fill(f"The table sweeps these cases, {where}: {_joined_files(files)}.", WIDTH), ""]
     for engine in sorted({row["engine"] for row in rows}):
         its = [row for row in rows if row["engine"] == engine]
         swept = [*dict.fromkeys(row["version"] for row in its)]
-        told = "; ".join(_told(its, swept)) or "no release moved a number"
-        lines.append(fill(f"- {engine} {', '.join(swept)}: {told}.", WIDTH, subsequent_indent="  "))
+        text = "; ".join(_release_changes(its, swept)) or "no release moved a number"
+        lines.append(fill(f"- {engine} {', '.join(swept)}: {text}.", WIDTH, subsequent_indent="  "))
     return "\n".join(lines) + "\n"
 
 
-def _told(rows: Sequence[Row], swept: Sequence[str]) -> Iterator[str]:
+def _release_changes(rows: Sequence[Row], swept: Sequence[str]) -> Iterator[str]:
     """For each release that moved numbers which the one before had: how many moved, and where."""
     for before, now in pairwise(swept):
         had = {_place(row) for row in rows if row["version"] == before and row["error"]}
@@ -97,14 +97,14 @@ def _told(rows: Sequence[Row], swept: Sequence[str]) -> Iterator[str]:
         if moved:
             files = sorted({row["case"].partition(".")[0] for row in moved})
             count = f"{len(moved)} number{'s' if len(moved) > 1 else ''}"
-            yield f"{now} moved {count}, in {_named(files)}"
+            yield f"{now} moved {count}, in {_joined_files(files)}"
 
 
 def _place(row: Row) -> tuple[str, ...]:
     return tuple(row[name] for name in PLACE)
 
 
-def _named(files: Sequence[str]) -> str:
+def _joined_files(files: Sequence[str]) -> str:
     return ", ".join(f"`{name}`" for name in files)
 
 
@@ -139,11 +139,11 @@ def _first() -> str:
 
 @cache
 def _lines() -> Sequence[Line]:
-    return summary(_rows(), _rungs(), cures(HERE))
+    return summary(_committed_rows(), _rungs(), cures(HERE))
 
 
 @cache
-def _rows() -> Sequence[Comparison]:
+def _committed_rows() -> Sequence[Comparison]:
     """The rows of scenes: a model's are against its own limit, and have a table of their own."""
     return [row for row in read(HERE / "tolerance.csv", Comparison) if row.theme != OWN_MODEL]
 
@@ -154,14 +154,14 @@ def _rungs() -> Sequence[Rungs]:
 
 
 PARTS = (
-    Part("README.md", "shares", lambda: markdown(shares(_rows()))),
+    Part("README.md", "shares", lambda: markdown(shares(_committed_rows()))),
     Part("README.md", "first", _first),
     Part("README.md", "speed", speed),
     Part("reports/README.md", "summary", lambda: markdown(page(_lines()))),
     Part(
         "reports/README.md",
         "approximations",
-        lambda: markdown(page(approximations(_rows(), _rungs()))),
+        lambda: markdown(page(approximations(_committed_rows(), _rungs()))),
     ),
     Part("reports/README.md", "releases", lambda: releases(listed())),
     Part("engines/SCENE.md", "scene", nouns),
@@ -194,7 +194,7 @@ def filled(text: str, part: Part) -> str:
 
 def drawn() -> str:
     """The picture as it should be."""
-    return picture.picture(_rows())
+    return picture.picture(_committed_rows())
 
 
 # Lists what people ask in public: the case that answers, in a line, and the setting it takes.
@@ -219,8 +219,8 @@ class Question:
 
 def listed_questions() -> Mapping[str, Question]:
     """By the name of the case that answers, in the order in which they are to be read."""
-    found = YAML(typ="safe").load(LISTED.read_text(encoding="utf-8"))
-    return {name: Question(q["asks"], q["answer"], q["with"]) for name, q in found.items()}
+    questions = YAML(typ="safe").load(LISTED.read_text(encoding="utf-8"))
+    return {name: Question(q["asks"], q["answer"], q["with"]) for name, q in questions.items()}
 
 
 def questions() -> list[list[str]]:
@@ -260,8 +260,8 @@ def _share(those: Iterable[bool]) -> str:
     return f"{mean(those):.0%}".replace("%", " %")
 
 
-def _at_angle(found: tuple[tuple[str, str], list[float]]) -> tuple[str, float]:
-    (engine, setting), _ = found
+def _at_angle(item: tuple[tuple[str, str], list[float]]) -> tuple[str, float]:
+    (engine, setting), _ = item
     return engine, place(setting)
 
 

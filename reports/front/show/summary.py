@@ -37,9 +37,9 @@ def agreement(
     What fails is named too. Where nothing agrees and the best recipe was not asked for,
     nothing is said.
     """
-    failing = sorted({way[0] for way, found in rows.items() if _fails(found)})
+    failing = sorted({way[0] for way, group in rows.items() if _fails(group)})
     fails = [f"{' and '.join(failing)} FAILS"] if failing else []
-    able = [way for way, found in rows.items() if within(found) or _step(found, ladders.get(way))]
+    able = [way for way, group in rows.items() if within(group) or _step(group, ladders.get(way))]
     if not able:
         return "; ".join([*fails, "none"] if any(way[0] == "tuned" for way in rows) else fails)
     steps = {way: _step(rows[way], ladders.get(way)) or 0.0 for way in able}
@@ -51,10 +51,10 @@ def agreement(
 
 def within(rows: Sequence[Comparison]) -> bool:
     """Whether all that can be read is within its tolerance, at the judged step."""
-    return bool(judged(rows)) and all(_within(row) for row in judged(rows))
+    return bool(judged(rows)) and all(_is_within(row) for row in judged(rows))
 
 
-def _within(row: Comparison) -> bool:
+def _is_within(row: Comparison) -> bool:
     return row.ratio is not None and row.ratio <= 1.0
 
 
@@ -67,7 +67,7 @@ def _step(rows: Sequence[Comparison], ladder: Sequence[Rungs] | None) -> float |
     known = [step for step in usable if step is not None]
     climbed = {rung.quantity for rung in ladder or ()}
     rest = [row for row in judged(rows) if row.quantity not in climbed]
-    if known and len(known) == len(usable) and all(map(_within, rest)):
+    if known and len(known) == len(usable) and all(map(_is_within, rest)):
         return min(known)
     steps = [row.step for row in rows if row.step is not None]
     return min(steps, default=None) if within(rows) else None
@@ -110,11 +110,11 @@ def summary(
             f"{engine}.{way[0]}",
             _worst(rows[way]),
             agreement(rows, ladders),
-            _cured(rows[way], cures or {}),
+            _cure_of(rows[way], cures or {}),
         )
         for case, engine, rows, ladders in _engines(comparisons, rungs)
         if engine != BOOK
-        for way in _shown(rows)
+        for way in _shown_ways(rows)
     ]
 
 
@@ -144,14 +144,14 @@ def _engines(
 
 
 def _grouped(rows: Iterable[Row]) -> dict[tuple[str, str], dict[Way, list[Row]]]:
-    found: dict[tuple[str, str], dict[Way, list[Row]]] = {}
+    groups: dict[tuple[str, str], dict[Way, list[Row]]] = {}
     for row in rows:
-        ways = found.setdefault((row.case, row.engine), {})
+        ways = groups.setdefault((row.case, row.engine), {})
         ways.setdefault((row.setting, row.realised), []).append(row)
-    return found
+    return groups
 
 
-def _shown(rows: Iterable[Way]) -> list[Way]:
+def _shown_ways(rows: Iterable[Way]) -> list[Way]:
     ways = sorted(rows, key=place)
     native = [way for way in ways if way[1] == NATIVE] or ways[:1]
     return [way for way in native if way[0] != "tuned"] or native
@@ -161,13 +161,13 @@ def _worst(rows: Sequence[Comparison]) -> str:
     answered = judged(rows)
     if not answered:
         return REFUSED
-    told = [row for row in answered if row.ratio is not None]
-    if not told:
+    rated = [row for row in answered if row.ratio is not None]
+    if not rated:
         return answered[0].verdict
     words = []
     if any(row.verdict == CHANGED for row in answered):
         words.append("changed")
-    worst = max(told, key=_size)
+    worst = max(rated, key=_size)
     words.append("agrees" if _size(worst) <= 1 else f"{worst.quantity} {factor(_size(worst))}")
     if len(answered) < len(rows):
         words.append(f"{len(rows) - len(answered)} not read")
@@ -178,9 +178,9 @@ def _size(row: Comparison) -> float:
     return inf if row.ratio is None or not row.ratio <= inf else row.ratio  # NaN is the worst
 
 
-def _cured(rows: Sequence[Comparison], cures: Cures) -> str:
-    told = [row for row in judged(rows) if row.ratio is not None]
-    worst = max(told, key=_size, default=None)
+def _cure_of(rows: Sequence[Comparison], cures: Cures) -> str:
+    rated = [row for row in judged(rows) if row.ratio is not None]
+    worst = max(rated, key=_size, default=None)
     if worst is None or _size(worst) <= 1:
         return ""
     return cures.get((worst.case, worst.engine, worst.setting, worst.quantity), "")

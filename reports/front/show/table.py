@@ -23,9 +23,9 @@ def markdown(lines: Sequence[Sequence[str]]) -> str:
 def page(lines: Sequence[Line]) -> list[list[str]]:
     """The summary's lines as cells, its head first; a case is named once, no column is empty."""
     rows: list[list[str]] = [list(PAGE)]
-    for case, found in groupby(lines, key=lambda line: line.case):
+    for case, group in groupby(lines, key=lambda line: line.case):
         named = [f"`{case}`"]
-        for line in found:
+        for line in group:
             rows.append([*named, line.setting, line.worst, line.agrees, line.cured])
             named = [""]
     used = [i for i in range(len(PAGE)) if any(row[i] for row in rows[1:])]
@@ -41,9 +41,9 @@ def narrow(lines: Sequence[Line]) -> str:
     widths = _widths([head, *rows])
     out = list(_broken(head, widths))
     cases = iter(rows)
-    for case, found in groupby(lines, key=lambda line: line.case):
+    for case, group in groupby(lines, key=lambda line: line.case):
         out.append(case)
-        for _ in found:
+        for _ in group:
             out += _broken(next(cases), widths)
     return "\n".join(out)
 
@@ -66,5 +66,5 @@ def _broken(row: Sequence[str], widths: Sequence[int]) -> Iterator[str]:
     first, *cells = row
     parts = [wrap(cell, width) for cell, width in zip(cells, widths[1:], strict=True)]
     for line in zip_longest([first], *parts, fillvalue=""):
-        told = zip(line, widths, strict=True)
-        yield (" " * GAP).join(f"{cell:{width}}" for cell, width in told).rstrip()
+        pairs = zip(line, widths, strict=True)
+        yield (" " * GAP).join(f"{cell:{width}}" for cell, width in pairs).rstrip()

@@ -56,8 +56,8 @@ def show(
         say(f"written to {written}")
 
 
-def _summary(found: Sequence[Comparison], rungs: Sequence[Rungs], cures: Cures) -> None:
-    for lines in (summary(found, rungs, cures), approximations(found, rungs)):
+def _summary(comparisons: Sequence[Comparison], rungs: Sequence[Rungs], cures: Cures) -> None:
+    for lines in (summary(comparisons, rungs, cures), approximations(comparisons, rungs)):
         if lines:
             say(f"\n{narrow(lines)}")
     say()
@@ -91,12 +91,12 @@ Numbers = dict[str, tuple[float | None, ...]]
 
 def without_effect(rows: Sequence[Comparison]) -> Iterator[str]:
     """A line for each own setting whose numbers are the shipped ones, all of them, in a case."""
-    found: defaultdict[tuple[str, str], dict[str, Numbers]] = defaultdict(dict)
+    by_case: defaultdict[tuple[str, str], dict[str, Numbers]] = defaultdict(dict)
     for row in rows:
         if row.engine != BOOK and row.setting != "tuned":
-            numbers = found[row.case, row.engine].setdefault(row.setting, {})
+            numbers = by_case[row.case, row.engine].setdefault(row.setting, {})
             numbers[row.quantity] = (row.step, row.error, row.rms, row.final)
-    for (case, engine), settings in found.items():
+    for (case, engine), settings in by_case.items():
         shipped = settings.get("shipped")
         for setting in settings:
             if setting not in OFFERED and settings[setting] == shipped:
@@ -111,8 +111,8 @@ REASON = " " * 6
 
 def rows(comparisons: Sequence[Comparison]) -> Iterator[str]:
     """Lines: of each quantity how far off it is, of what is allowed, the verdict, and why."""
-    for _, found in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
-        group = [*found]
+    for _, of_way in groupby(comparisons, key=lambda r: (r.case, r.engine, r.setting, r.realised)):
+        group = [*of_way]
         yield ""
         yield head(group)
         protocols = (row.protocol for row in reversed(group) if row.protocol)  # the audit's is less
@@ -120,12 +120,12 @@ def rows(comparisons: Sequence[Comparison]) -> Iterator[str]:
         names = max(len(spoken(row.quantity)) for row in group)
         units = max(len(row.unit) for row in group)
         for (_, silent, because), same in groupby(group, key=_reason):
-            told = [*same]
+            alike = [*same]
             if silent:
-                yield from _wrapped(", ".join(spoken(row.quantity) for row in told), "  ")
-                yield from _wrapped(f"{spoken(told[0].verdict)}: {because}".strip(": "), REASON)
+                yield from _wrapped(", ".join(spoken(row.quantity) for row in alike), "  ")
+                yield from _wrapped(f"{spoken(alike[0].verdict)}: {because}".strip(": "), REASON)
                 continue
-            for row in told:
+            for row in alike:
                 allowed = "" if row.allowed is None else f"of {row.allowed:.1e}"
                 number = f"{row.error:8.2e} {row.unit:{units}}"
                 quantity = f"{spoken(row.quantity):{names}}"
@@ -147,12 +147,12 @@ def head(group: Sequence[Comparison]) -> str:
 def certificate_lines(certificates: Sequence[Certificate]) -> Iterator[str]:
     """Lines: what each reference is known to, of all that its case bounds; of one that holds."""
     for case, rows in groupby(certificates, key=lambda row: row.case):
-        found = [*rows]
-        if any(row.verdict == FAILS for row in found):
+        checks = [*rows]
+        if any(row.verdict == FAILS for row in checks):
             continue  # what it would be known to is no comfort, and is not said
         certified = [
             f"{row.check.removeprefix('error of ')} to {row.certified:.0e} {row.unit}"
-            for row in found
+            for row in checks
             if row.certified is not None
         ]
         if certified:

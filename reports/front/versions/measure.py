@@ -62,13 +62,13 @@ def measure(
     with TemporaryDirectory(prefix="textmech-releases-") as passing:
         cache = Path(passing) if usable() is None else by_default()
         places = [place(release, cache / ENVIRONMENTS, tell) for release in releases]
-        for i, (release, found) in enumerate(zip(releases, places, strict=True)):
+        for i, (release, path) in enumerate(zip(releases, places, strict=True)):
             tell(f"running {release}")
             out = Path(passing) / str(i)
             asked = ["--json", "--engine", release.engine, "--out", out, *words, "--", *cases]
             done = subprocess.run(
                 [sys.executable, "-P", "-m", "textmech", "run", *asked],
-                env=_environment(found, cache),
+                env=_environment(path, cache),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 check=False,
@@ -77,21 +77,21 @@ def measure(
             own = ["--engine", "--settings", *settings]
             measured = _measured(release, done.returncode, said, out, own, models)
             if models and release.engine == MUJOCO:
-                measured = replace(measured, motions=_motions(found, cache, cases))
+                measured = replace(measured, motions=_motions(path, cache, cases))
             yield measured
 
 
-def _motions(found: Path | None, cache: Path, cases: Sequence[str]) -> dict[str, Any]:
+def _motions(place: Path | None, cache: Path, cases: Sequence[str]) -> dict[str, Any]:
     """Returns what the release's own process says of the models; nothing if it ended before."""
     command = [sys.executable, "-P", "-m", f"{__package__}.stepping", *cases]
     done = subprocess.run(
-        command, env=_environment(found, cache), stdout=subprocess.PIPE, check=False
+        command, env=_environment(place, cache), stdout=subprocess.PIPE, check=False
     )
     return {} if done.returncode else json.loads(done.stdout)
 
 
-def _environment(found: Path | None, cache: Path) -> dict[str, str]:
-    paths = [found, os.environ.get("PYTHONPATH")]
+def _environment(place: Path | None, cache: Path) -> dict[str, str]:
+    paths = [place, os.environ.get("PYTHONPATH")]
     path = os.pathsep.join(str(part) for part in paths if part)
     return {**os.environ, FOLDER: str(cache)} | ({"PYTHONPATH": path} if path else {})
 
@@ -129,7 +129,7 @@ def _measured(
 def _mistakes(said: str) -> list[Mistake]:
     """Returns the mistakes of a run's document; none if it ended before it could say one."""
     try:
-        told = json.loads(said)["mistakes"]
+        mistakes = json.loads(said)["mistakes"]
     except ValueError:
         return []
-    return [Mistake(m["file"], m["line"], m["column"], m["field"], m["what"]) for m in told]
+    return [Mistake(m["file"], m["line"], m["column"], m["field"], m["what"]) for m in mistakes]

@@ -46,18 +46,18 @@ class Apart:
 
 def farthest(ready: Opened, a: Motion, b: Motion) -> Apart:
     """Returns where two motions of a model are farthest apart."""
-    found: list[Apart] = []
+    apart_by_quantity: list[Apart] = []
     for quantity, off in differences([*ready.bars], a, b).items():
         size = np.asarray(sizes(off)).tolist()
         most = max(size)
         when = float(a.times[size.index(most)])
-        found.append(Apart(quantity, most / ready.bars[quantity], most, when, size[-1]))
-    return max(found, key=lambda apart: apart.ratio)
+        apart_by_quantity.append(Apart(quantity, most / ready.bars[quantity], most, when, size[-1]))
+    return max(apart_by_quantity, key=lambda apart: apart.ratio)
 
 
 def told(cases: Sequence[ModelCase], measured: Sequence[Measured]) -> Iterator[str]:
     """Yields the lines of each model, with the releases in their order."""
-    releases = [one for one in measured if one.release.engine == MUJOCO]
+    releases = [run for run in measured if run.release.engine == MUJOCO]
     for case in cases if releases else ():
         yield ""
         with listening():
@@ -81,9 +81,9 @@ def _of_model(case: ModelCase, releases: Sequence[Measured]) -> Iterator[str]:
         exact, until = None, times[-1]
         yield f"{case.name}: each at its own step; no limit: {error}"
     last: tuple[str, Motion, Apart | None] | None = None
-    for one in releases:
-        version = one.release.version
-        samples = one.motions.get(case.name, {"because": one.because or "was not run"})
+    for run in releases:
+        version = run.release.version
+        samples = run.motions.get(case.name, {"because": run.because or "was not run"})
         motion = _motion(ready, samples, times, until)
         if motion is None:
             yield f"  {version}: {samples.get('because', 'has other coordinates')}"

@@ -33,26 +33,26 @@ def table(measured: Sequence[Measured], cases: Sequence[str]) -> pd.DataFrame:
     rows: list[Mapping[str, str]] = []
     count: Counter[str] = Counter()
     last: dict[str, Measured] = {}
-    for one in measured:
-        engine = one.release.engine
+    for run in measured:
+        engine = run.release.engine
         count[engine] += 1
         number = {"release": str(count[engine])}
-        if one.folder is None:
-            told = {"verdict": one.verdict, "because": one.because}
-            head = {"engine": engine, "version": one.release.version, **told, **number}
+        if run.folder is None:
+            outcome = {"verdict": run.verdict, "because": run.because}
+            head = {"engine": engine, "version": run.release.version, **outcome, **number}
             rows += [head | {"case": case} for case in cases]
             continue
-        moved = _moved(last[engine], one) if engine in last else {}
-        for row in one.folder.errors:
-            told = {name: row[name] for name in COLUMNS}
-            rows.append(told | number | moved.get(place(ERRORS, row), {}))
-        last[engine] = one
+        moved = _change_cells(last[engine], run) if engine in last else {}
+        for row in run.folder.errors:
+            cells = {name: row[name] for name in COLUMNS}
+            rows.append(cells | number | moved.get(place(ERRORS, row), {}))
+        last[engine] = run
     columns = [*COLUMNS, *FURTHER]
     frame = pd.DataFrame([{name: row.get(name, "") for name in columns} for row in rows])
     return frame.sort_values(["engine", "case"], kind="stable", ignore_index=True)
 
 
-def _moved(before: Measured, now: Measured) -> dict[Place, dict[str, str]]:
+def _change_cells(before: Measured, now: Measured) -> dict[Place, dict[str, str]]:
     """Returns the further cells of each row that changed from one release to another."""
     if before.folder is None or now.folder is None:
         return {}
@@ -79,8 +79,8 @@ def text(table: pd.DataFrame, width: int) -> str:
             before = ran[-1] if ran else []
             numbers = _numbers(rows).keys() & _numbers(before).keys()
             places = {place(ERRORS, row) for row in rows if row["moved"]} & numbers
-            told = _told(rows, before, len(places))
-            lines += [line for each in told for line in fitted(each, width)]
+            paragraphs = _release_lines(rows, before, len(places))
+            lines += [line for paragraph in paragraphs for line in fitted(paragraph, width)]
             if rows[0]["quantity"]:
                 ran.append(rows)
                 moved.append(places)
@@ -92,7 +92,7 @@ def _numbers(rows: Sequence[Row]) -> dict[Place, Row]:
     return {place(ERRORS, row): row for row in rows if row["error"]}
 
 
-def _told(rows: Sequence[Row], before: Sequence[Row], moved: int) -> Iterator[str]:
+def _release_lines(rows: Sequence[Row], before: Sequence[Row], moved: int) -> Iterator[str]:
     """Yields how many numbers a release gave and moved, and what the one before did not lack."""
     version = rows[0]["version"]
     if not rows[0]["quantity"]:
@@ -122,7 +122,7 @@ def _table(ran: Sequence[Sequence[Row]], moved: Sequence[set[Place]], width: int
     for head, some in groupby(places[:MOST], key=lambda where: where[:2]):
         lines.append((" ".join(head), *[""] * len(ran)))
         for where in some:
-            rows = [found.get(where) for found in numbers]
+            rows = [by_place.get(where) for by_place in numbers]
             unit = next(row["unit"] for row in rows if row)
             marks = ["*" * (where in its) for its in moved]
             cells = (_cell(row, mark) for row, mark in zip(rows, marks, strict=True))
