@@ -137,12 +137,12 @@ class Attempt:
 
     @property
     def name(self) -> str:
-        """For whoever waits for it."""
+        """The name that progress shows."""
         return f"{self.grade.name} in {self.engine.name}.{self.engine.setting}"
 
     @property
     def limit(self) -> float:
-        """How long it may take [s]: its runs, and a few references."""
+        """The time [s] that it may take: its runs, and a few references."""
         return limit((1 + FINER) * self.given.duration / self.step * self._pace) + LIMIT
 
     @property
@@ -228,7 +228,7 @@ def _not_pickled(plan: Plan) -> str:
 
 
 def _numbers(attempt: Attempt, trial: Trial) -> Mark | None:
-    """Masses and so on, before any step, where one is wrong."""
+    """Returns a mark if a number read back before any step, as a mass, is wrong."""
     wanted, read, off = audited(trial)
     wrong = sorted((name for name in off if off[name] > EQUAL), key=lambda name: -off[name])
     if not wrong:

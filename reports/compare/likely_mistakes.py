@@ -139,7 +139,7 @@ def _far(rows: Array) -> float:
 
 
 def _share(values: Array, wanted: Array | float, size: float) -> float:
-    """The rms of what is off, over a size."""
+    """Returns the rms of the difference over a size."""
     rms = float(np.sqrt(np.mean(np.sum((values - wanted) ** 2, axis=1))))
     return rms / size if np.isfinite(rms) else np.inf
 

@@ -109,7 +109,7 @@ def _compare(part: Part, tree: Tree, ours: tuple[Array, Array], theirs: Array) -
 
 
 def _worsen(part: Part, name: Callable[[int], str], difference: Array, sizes: Array) -> None:
-    """Notes the largest of differences, each of its size, and the name of what has it."""
+    """Updates a part with the largest difference over its size, and the name of what has it."""
     difference = np.abs(difference)
     with np.errstate(divide="ignore", invalid="ignore"):
         off = np.where(difference == 0.0, 0.0, difference / sizes)

@@ -97,7 +97,7 @@ class Steps:
 
     @property
     def known(self) -> float:
-        """To what the limit is known [rad, m] as far as it is judged."""
+        """The error bound [rad, m] of the limit as far as it is judged."""
         return _limit_error(self.limit, self.until)
 
     @property

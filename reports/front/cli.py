@@ -36,7 +36,7 @@ def main() -> None:
 
 
 def _answered() -> int | None:
-    """The exit code; None is 0 too."""
+    """Returns the exit code; None is 0 too."""
     try:
         return command(prog_name="textmech", standalone_mode=False)
     except click.exceptions.NoArgsIsHelpError as error:

@@ -49,7 +49,7 @@ class Earlier:
         return Earlier(store, Keys.now(store))
 
     def ways(self, case: Case, engine: Engine, start: Callable[[], Start]) -> Ways:
-        """How the engine runs the case; `start` is called where nobody has asked before."""
+        """Returns how the engine runs the case; `start` is called where nobody has asked before."""
         key = self.keys.collected(case, engine) if self.store else ""
         kept = self.store.get(key) if self.store else None
         if kept is not None:

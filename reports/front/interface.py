@@ -401,7 +401,7 @@ def _from(least: float) -> str:
 
 @contextmanager
 def _aloud(progress: "Progress | None") -> "Iterator[Progress]":
-    """The user's own; else what takes longer than two seconds says on the error stream how far."""
+    """Yields the user's progress, or one on the error stream after two seconds."""
     from .show import progress as shown
 
     with shown.aloud(), shown.progress(quiet=True) as listener:
@@ -430,7 +430,7 @@ def _options(options: Any) -> dict[str, Any]:
 
 
 def _text_names(item: tuple[Any, Any], depth: int = 0) -> bool:
-    """Whether all names are text, of options no deeper than a file's may be."""
+    """Whether all names of options are text, and nest no deeper than a file's may."""
     from ...cases.language.document import DEEPEST
 
     name, value = item
@@ -441,7 +441,7 @@ def _text_names(item: tuple[Any, Any], depth: int = 0) -> bool:
 
 
 def _plain(value: Any) -> Any:
-    """As a file has it: of numpy's numbers and arrays Python's."""
+    """Converts numpy's numbers and arrays to Python's, as a file has them."""
     if isinstance(value, Mapping):
         return {name: _plain(each) for name, each in value.items()}
     if isinstance(value, list | tuple):

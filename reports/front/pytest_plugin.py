@@ -237,7 +237,7 @@ class CaseFile(pytest.File):
         wanted, own = option("textmech_case") or [], _settings(self.config)
         spare = not option("textmech_settings")  # what the ini file names may be of other engines
         try:
-            found: list[Any] = (
+            cases: list[Any] = (
                 [*collected_models(self.path, names, own, wanted, long=long)]
                 if has_model(self.path)
                 else collected(
@@ -250,7 +250,7 @@ class CaseFile(pytest.File):
                 yield MistakeItem.from_parent(self, name="mistakes", text=str(error))
                 return
             raise self.CollectError(str(error)) from None
-        for case, keys in found:
+        for case, keys in cases:
             yield CertificateItem.from_parent(self, name=f"{case.name}-reference", case=case)
             for key in keys:
                 _, engine, setting, realised, quantity = key
@@ -260,7 +260,7 @@ class CaseFile(pytest.File):
 
 
 def _as_typed(error: "CaseError") -> "CaseError":
-    """The mistakes, with options called as pytest's are."""
+    """Returns the mistakes, with options called as pytest's are."""
     from ...cases.mistake import CaseError
 
     ours = {word: f"--textmech-{word[2:]}" for word in ("--engine", "--settings")}
@@ -339,7 +339,7 @@ class RowError(Exception):
 
 
 def _size_text(row: "Comparison") -> str:
-    """How far off a row is, and when: the line that pytest's short summary shows the beginning of.
+    """Returns how far off a row is, and when: the line that begins pytest's short summary.
 
     As `×7.92 of 0.01 rad at 2.9 s`; of what has no number its verdict and its reason.
     """
@@ -429,7 +429,7 @@ class ComparisonItem(CaseItem):
         return own or (mine and not is_shipped(self.path))
 
     def row(self) -> "Comparison":
-        """Its row. Raises RowError where it has none."""
+        """Returns the item's row. Raises RowError where it has none."""
         from ..tables.committed import key_of
 
         report, stash = self.report(), self.session.stash
@@ -485,6 +485,6 @@ def _measure(session: pytest.Session) -> "Report":
 
 
 def _tell(line: str) -> None:
-    """On the error stream, past what pytest captures; a worker of xdist has none."""
+    """Prints to the error stream, past what pytest captures; a worker of xdist has none."""
     with suppress(OSError):
         os.write(_ERRORS, f"\ntextmech: {line}\n".encode(errors="backslashreplace"))

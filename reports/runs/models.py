@@ -33,7 +33,7 @@ OPTIONS = (
 
 @dataclass(frozen=True)
 class Settings:
-    """In which settings a model is stepped beside its own: some of OTHERS, and a user's files."""
+    """The settings in which a model is stepped beside its own: some of OTHERS, a user's files."""
 
     others: Sequence[str] = (*OTHERS,)
     own: Sequence[Setting] = ()
@@ -82,7 +82,7 @@ class Task:
 
     @property
     def name(self) -> str:
-        """For whoever waits for it."""
+        """The name that progress shows."""
         return self.case.name
 
     @property

@@ -85,7 +85,7 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
 
 
 def _angles(samples: Array) -> Array:
-    """Numbers as they are; of an attitude the angle from where it began."""
+    """Returns numbers as they are, and of an attitude the angle from its first."""
     return samples if samples.ndim == 1 else apart(samples, samples[:1])
 
 

@@ -66,7 +66,7 @@ def requested(
     long: bool = False,
     models: Sequence[ModelCase] = (),
 ) -> Request:
-    """The cases that were found, in engines × settings by name (all for none).
+    """Returns the request to run cases in engines × settings by name (all for none).
 
     own: further engines, with a user's own options. mistakes: of files that were not found sound.
     named: whether a person named the cases, and should know which of them nobody answers. models:
@@ -101,7 +101,7 @@ NO_ENGINE = "is a model, which MuJoCo alone reads: name it among the engines, or
 
 
 def _silent(cases: Sequence[Case], engines: Sequence[Engine], *, book: bool) -> str:
-    """Which of the cases nobody answers. Raises CaseError if none is left."""
+    """Names the cases that no engine answers. Raises CaseError if none is left."""
     silent = [case.name for case in cases if not producers(case, engines, book=book)]
     if not silent:
         return ""

@@ -68,7 +68,7 @@ def choose_cases(
 def sound_cases(
     words: Sequence[str], *, known: Engines | None = ENGINES, long: bool = False
 ) -> tuple[list[Case], list[Mistake]]:
-    """As `choose_cases`, but a mistake costs its own file: what is left, and all mistakes."""
+    """Returns the cases of files without mistakes, and all mistakes; else as `choose_cases`."""
     cases: dict[str, Case] = {}
     mistakes: list[Mistake] = []
     for word in words or shipped():
@@ -154,7 +154,7 @@ def names_function(word: str) -> bool:
 
 
 def nameable(word: str) -> None:
-    """A case is called as its file is, and the name stands in tables and on terminals.
+    """Checks a file's name, which names its case in tables and on terminals.
 
     Raises CaseError: a spreadsheet computes what begins with =, +, - or @.
     """
@@ -293,7 +293,7 @@ def _tell_broken(name: str, broken: engines.Broken, *, asked: bool) -> None:
 
 
 def _offers(asked: Set[str]) -> dict[str, tuple[str, ...]]:
-    """The settings of the engines that are asked for, or of all; no other is imported."""
+    """Returns the settings of the engines asked for, or of all; no other is imported."""
     offers: dict[str, tuple[str, ...]] = {}
     for name in engines.names():
         if not asked or name in asked:

@@ -118,7 +118,7 @@ def space_case(
 
 
 def _place(where: str) -> str:
-    """Where a part of a case is in the Space, as `space.bodies[3] (initial.body3.x)`."""
+    """Returns a place of a case as one in the Space: `space.bodies[3] (initial.body3.x)`."""
     named = re.search(r"\b(body|constraint|shape)(\d+)", where)
     if named is None or where.startswith("space."):
         return where

@@ -174,7 +174,7 @@ def _certificate(case: Case, solution: Solution, check: Check) -> Certificate:
 
 
 def _bound(check: Check) -> float:
-    """The bound as it is written: of a measured one that is kept a power of a thousand above it.
+    """Rounds a bound as it is written: a measured one that is kept up to a power of a thousand.
 
     Its own digits are rounding's, and of a run on another processor others.
     """

@@ -16,7 +16,7 @@ PAUSE = 0.5  # s between two looks at the files of code
 
 
 class Progress(Protocol):
-    """Is told what is being done, how many tasks of it are done, out of how many.
+    """A function called with what is being done, how many tasks are done, and of how many.
 
     last: the task that was done last, by its name. part: how much of the work is done, 0 to 1, of
     what was left to do; unlike the tasks' number it counts a long one for more.
@@ -28,7 +28,7 @@ class Progress(Protocol):
 
 
 def silent(what: str, done: int, total: int, last: str = "", part: float = 0.0, /) -> None:
-    """Tells nobody."""
+    """Ignores progress."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Results:
         return {key: kept for key in keys if (kept := self.store.get(key)) is not None}
 
     def keep(self, results: Mapping[str, Any]) -> None:
-        """By their keys, for the next run, unless they may be of a mixture of code."""
+        """Stores results by their keys for the next run, unless the code has changed meanwhile."""
         if results and self.keys.hold():
             for key, result in results.items():
                 self.store.put(key, result)
@@ -58,7 +58,7 @@ class Results:
     def of(
         self, what: str, function: Callable[[Any], Any], tasks: Mapping[str, Any]
     ) -> dict[str, Any]:
-        """By the tasks' keys: what is stored, and all else computed and kept at once."""
+        """Returns results by the tasks' keys: stored ones, and all others computed and kept."""
         stored = self.stored(tasks)
         missing = {key: task for key, task in tasks.items() if key not in stored}
         return stored | self.anew(what, function, missing, len(tasks), keep=True)
@@ -112,5 +112,5 @@ def mistakes_of(case: Case, answer: object) -> list[Mistake]:
 
 
 def _work(task: Any) -> float:
-    """How much a task is, among its like: its steps, if it has any."""
+    """Returns the work of a task beside others of its kind: its steps, if it has any."""
     return float(getattr(task, "steps", 1.0))

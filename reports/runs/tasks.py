@@ -50,11 +50,11 @@ class Pair:
 
     @property
     def limit(self) -> float:
-        """How long the engine may take to plan [s]."""
+        """The time [s] that the engine may take to plan."""
         return limit()
 
     def reference(self) -> Trajectory:
-        """From the store; where that has none, as on a machine that does not share it, anew."""
+        """Returns the stored reference; solves it anew where the store has none."""
         return _at_hand(self.store, self.key) or solve(self.case).trajectory
 
     def timing(self, reference: Trajectory) -> Timing:
@@ -96,7 +96,7 @@ class Climb:
     """A unit and what its rungs gave."""
 
     unit: Unit
-    found: Mapping[At, Climbed]
+    by_rung: Mapping[At, Climbed]
 
     @property
     def name(self) -> str:
@@ -125,7 +125,7 @@ def solved(case: Case) -> Solution | CaseError:
 
 
 def planned(pair: Pair) -> tuple[Way, ...]:
-    """In which ways the engine runs the case, or refuses to."""
+    """Returns the ways in which the engine runs the case, or refuses to."""
     start = first(pair.reference())
     if pair.case.states is not None:
         return states.ways(pair.engine, pair.case, start)
@@ -141,14 +141,14 @@ def judged(climb: Climb) -> Outcome:
         return compare(Trial(pair.case, reference, pair.engine, way))
     case = pair.sampled
     if case.states is not None:
-        return answered(Trial(case, reference, pair.engine, way), climb.found[states.AT])
+        return answered(Trial(case, reference, pair.engine, way), climb.by_rung[states.AT])
     if case is pair.case:
         trial = Trial(case, reference, pair.engine, way, timed=pair.timing(reference))
-        return compare(trial, gathered(trial, climb.found))
+        return compare(trial, gathered(trial, climb.by_rung))
     solution, unsure = _at_own_samples(case)
     way = replace(way, withheld={**way.withheld, **dict.fromkeys(unsure, _UNSURE)})
     trial = Trial(case, solution.trajectory, pair.engine, way, sampled=True)
-    outcome = compare(trial, gathered(trial, climb.found))
+    outcome = compare(trial, gathered(trial, climb.by_rung))
     return outcome if solution.holds else failing(outcome, uncertified(solution))
 
 
@@ -156,7 +156,7 @@ _UNSURE = "adapter: at samples so far apart as its own step asks for, the refere
 
 
 def _at_own_samples(case: Case) -> tuple[Solution, set[str]]:
-    """The reference, and what it cannot know to what is asked: work is summed between samples."""
+    """Returns the reference, and the bars it cannot certify: work is summed between samples."""
     try:
         return solve(case), set()
     except CaseError as error:

@@ -49,7 +49,7 @@ def _stored(key: str, pair: Pair, results: Results) -> list[Tried]:
 def _computed(
     pairs: Mapping[str, Pair], references: References, results: Results
 ) -> dict[str, list[Tried]]:
-    """By the pairs' keys. What died is not kept, so that the next run tries it again."""
+    """Computes outcomes by the pairs' keys; what died is not kept, so the next run retries it."""
     ways = results.anew("plans", planned, pairs)
     units: dict[str, Unit] = {}
     gone: dict[str, Died] = {}
@@ -75,7 +75,7 @@ def _computed(
 def _run(
     units: Mapping[str, Unit], references: References, results: Results
 ) -> dict[str, Outcome | Died]:
-    """By the units' keys: all rungs, the longest first, or one core works alone at the end.
+    """Runs all rungs, by the units' keys, the longest first so that no core is left alone.
 
     A rung that dies costs its unit, for all of a unit's rungs are behind what its rows say.
     """

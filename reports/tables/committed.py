@@ -61,7 +61,7 @@ def before(case: Case | ModelCase, key: Key, version: str, step: float | None) -
 
 
 def worse(case: Case | ModelCase, row: Comparison) -> str:
-    """How a row is worse than the committed one, in words; or nothing."""
+    """Returns in words how a row is worse than the committed one, or nothing."""
     old = before(case, key_of(row), row.version, row.step)
     if old is None:
         return ""

@@ -42,7 +42,7 @@ def coverage(cases: Sequence[Case], executed: Mapping[str, set[str]]) -> pd.Data
 
 
 def countable() -> None:
-    """Nothing, where equations can be noted. Raises CaseError under `python -OO`.
+    """Checks that equations can be noted. Raises CaseError under `python -OO`.
 
     A function says by its docstring which equations it is, and that takes them away: every
     equation would seem to be covered by nothing.

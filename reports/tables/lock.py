@@ -39,7 +39,7 @@ _DESCRIPTORS: set[int] = set()
 
 
 def _lock(descriptor: int, *, waits: bool = True) -> bool:
-    """Locks it; False while another has it. On a network file system without locks none has."""
+    """Locks a file; False while another process has it; True where the file system has no locks."""
     from filelock import lock_descriptor  # a quarter of a second
 
     with suppress(OSError):
@@ -64,7 +64,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def _opened(path: Path) -> int | None:
-    """The folder, or the file, made where there was none."""
+    """Opens the folder, or the file, made where there was none."""
     folder = path.is_dir()
     if folder and WINDOWS:  # it opens no folder: a temporary file of the user's stands for it
         digest = sha256(os.fsencode(path.resolve())).hexdigest()

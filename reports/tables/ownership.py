@@ -44,7 +44,7 @@ def is_checkout() -> bool:
 
 
 def unasked(folder: Path, names: Iterable[str], *, overwrite: bool) -> None:
-    """Nothing, if each of the names is free there, or is a file of ours, or may be overwritten.
+    """Raises FileExistsError unless each name is free, a file of ours, or may be overwritten.
 
     The committed reports of a checkout are ours whatever they hold. Raises FileExistsError.
     """
@@ -57,7 +57,7 @@ def unasked(folder: Path, names: Iterable[str], *, overwrite: bool) -> None:
 
 
 def _strange(file: Path) -> str | None:
-    """Why it is none of ours, if it is none; whatever is no file is refused as it is written."""
+    """Returns why a file is not ours, or nothing; what is no file is refused when written."""
     if file.is_symlink():
         return "is a link"
     if not file.is_file():

@@ -21,7 +21,7 @@ def ships(case: Case) -> bool:
 
 
 def answered(case: Case, rows: Iterable[Comparison]) -> list[Comparison]:
-    """The case's rows, of which only those fail that something was promised of."""
+    """Returns the case's rows; only those fail of which something was promised."""
     return [*rows] if ships(case) else [_answered(case, row) for row in rows]
 
 
@@ -97,7 +97,7 @@ def _is_within(row: Comparison) -> bool:
 
 
 def _worst(rows: Iterable[Comparison]) -> Comparison | None:
-    """The one farthest off; None where one has no number, as of what diverged."""
+    """Returns the row farthest off; None where one has no number, as when it diverged."""
     judged = _judged(rows)
     if not judged or any(row.ratio is None or row.ratio != row.ratio for row in judged):
         return None

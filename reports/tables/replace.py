@@ -67,7 +67,7 @@ def _write(path: Path, data: bytes) -> None:
 
 
 def _rename(names: Iterable[str], made: Path, folder: Path) -> None:
-    """Moves those still to be moved; a link in a file's place is replaced, and not followed."""
+    """Renames the files still to be moved; a link in a file's place is replaced, not followed."""
     for name in names:
         if os.path.lexists(made / name):
             (made / name).replace(folder / name)

@@ -37,7 +37,7 @@ def as_written(number: float | None) -> float | None:
 
 
 def rank(verdict: str) -> int:
-    """How bad it is, from 0; what is no verdict is worse than all of them."""
+    """Returns how bad a verdict is, from 0; what is no verdict is worse than all of them."""
     return LADDER.index(verdict) if verdict in LADDER else len(LADDER)
 
 

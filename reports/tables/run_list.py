@@ -37,7 +37,7 @@ def digest(text: str) -> str:
 
 
 def listed(tables: Mapping[str, tuple[int, str]], folder: Path | None) -> str:
-    """The text of runs.csv for the (rows, text) of one run's tables, by file name.
+    """Returns the text of runs.csv for the (rows, text) of one run's tables, by file name.
 
     Tables of other runs that the folder's own list names stay in it, unless it cannot be read.
     """

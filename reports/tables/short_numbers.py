@@ -5,7 +5,7 @@ MANY = 1000.0  # from which on a power of ten is shorter
 
 
 def factor(ratio: float) -> str:
-    """How many times, in two digits: 2.4, 340, 1.3e4; 1.04, which is more than once."""
+    """Formats a ratio in two digits: 2.4, 340, 1.3e4; but 1.04, which is more than once."""
     if ratio < MANY:
         return f"×{float(f'{ratio:.{3 if ratio < NEAR else 2}g}'):g}"
     digits, _, power = f"{ratio:.1e}".partition("e")
@@ -13,5 +13,5 @@ def factor(ratio: float) -> str:
 
 
 def milliseconds(step: float) -> str:
-    """A step [s]: 8 ms, 0.25 ms."""
+    """Formats a step [s] in milliseconds: 8 ms, 0.25 ms."""
     return f"{float(f'{1e3 * step:.3g}'):g} ms"

@@ -17,5 +17,5 @@ SETTINGS = {"shipped": "defaults", "recommended": "its manual’s", "tuned": "be
 
 
 def spoken(word: str) -> str:
-    """The word as it is said; most are said as they are written."""
+    """Returns a table's word as it is said to a person; most stay as they are written."""
     return WORDS.get(word, word)

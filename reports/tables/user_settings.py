@@ -46,7 +46,7 @@ def made(document: Document, setting: str, *, long: bool = False) -> dict[str, E
 def _endless(
     source: Source, name: str, options: Mapping[str, Any], *, long: bool
 ) -> Iterator[Mistake]:
-    """Solvers that would sweep for hours (engines call their sweeps `…iterations`), and no steps.
+    """Yields a mistake for sweeps that take hours (`…iterations`), and for a step near zero.
 
     How many steps there are is counted for each case.
     """

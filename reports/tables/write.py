@@ -51,12 +51,12 @@ class Rows(Protocol):
 
 
 def by_default() -> Path:
-    """Where a full run writes: the committed reports of a checkout, else the user's own folder."""
+    """Returns where a full run writes: a checkout's committed reports, else the user's folder."""
     return HERE if is_checkout() else ELSEWHERE
 
 
 def tables(report: Rows, cases: Sequence[Case]) -> dict[str, pd.DataFrame]:
-    """Each report by its file name."""
+    """Returns the frame of each report by its file name."""
     frames = (
         _table(report.comparisons, Comparison),
         _table(report.rungs, Rungs),
@@ -173,7 +173,7 @@ def _number(text: str) -> Any:
 
 
 def _rounded(frame: pd.DataFrame) -> pd.DataFrame:
-    """Numbers as text with three significant digits; what is not known is empty."""
+    """Formats numbers with three significant digits; what is not known is empty."""
     out = frame.copy()
     for name in out.select_dtypes(include=[np.number]).columns:
         digits = TIMES if name in ("time", "when", "k") else NUMBERS

@@ -60,7 +60,7 @@ def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> 
 
 
 def _behind(steps: Array, u: Array, rows: Rows, t: float) -> Rows:
-    """The rows without those, within a step of the event at t, from which u still has to jump.
+    """Returns the rows without those within a step of the event at t before u has jumped.
 
     An engine knows a blow at the end of the step that holds it, and a record between its steps
     half of one later still.
@@ -75,7 +75,7 @@ def _behind(steps: Array, u: Array, rows: Rows, t: float) -> Rows:
 
 
 def _curve(times: Array, u: Array, t: float, most: int) -> float:
-    """At t, of the polynomial through so many of the rows, the nearest; of one time the first."""
+    """Returns at t the polynomial through so many of the nearest rows; of one time the first."""
     at, kept = np.unique(times, return_index=True)
     nearest = np.argsort(np.abs(at - t), kind="stable")[:most]
     return polynomial(at[nearest], u[kept][nearest])(t)

@@ -7,7 +7,7 @@ STEPS = (of.EXACT, of.TEXTBOOK, of.WITHIN, of.FALLS)  # verdicts that blame no m
 
 
 def cause(convergence: Convergence, finer: str = "", simplified: str = "", unit: str = "") -> str:
-    """In a few words; finer: why a step below the judged one gave nothing.
+    """Returns why a quantity is off, in words; finer: why a step below the judged gave nothing.
 
     simplified: what the engine leaves out of the scene, named unless the step alone is to blame.
     unit: the quantity's.
@@ -18,7 +18,7 @@ def cause(convergence: Convergence, finer: str = "", simplified: str = "", unit:
 
 
 def _stays_beside_event(convergence: Convergence) -> bool:
-    """Whether no step changes what is beside an event, though elsewhere errors fall with it."""
+    """Whether errors beside an event stay the same at every step, though elsewhere they fall."""
     sizes = convergence.errors.values()
     stays = max(sizes) < FALLEN * min(sizes)
     return convergence.verdict == of.TEXTBOOK and convergence.usable_step is None and stays

@@ -198,7 +198,7 @@ def _judged(
 
 
 def _worst(begun: Sequence[Begun], name: str) -> Begun:
-    """The start from which the quantity is farthest off; one that is not a number is farther."""
+    """Returns the start from which the quantity is farthest off; NaN is farther than any number."""
     sizes = [metric.error(run.samples[name], run.trial.wanted(name)).largest for run in begun]
     return begun[int(np.argmax(np.nan_to_num(sizes, nan=np.inf)))]
 
@@ -238,7 +238,7 @@ def _largest_error(trial: Trial, name: str, samples: Samples, step: float) -> fl
 def _telling(
     trial: Trial, name: str, largest: float, held: Convergence, following: Convergence
 ) -> Convergence:
-    """The ladder that tells a cause: the held one, which parts step and model.
+    """Returns the held ladder, which tells errors of the step from those of the model.
 
     With the numbers of its coarsest step the model may be further off than the judged run is, or
     within at the very step at which that is not. That explains nothing, nor does a model that is

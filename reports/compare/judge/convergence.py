@@ -118,7 +118,7 @@ def _usable(errors: Mapping[float, float], allow: float) -> float | None:
 
 
 def _amplified(exponents: Sequence[int]) -> float:
-    """By how much Romberg's columns with these exponents enlarge the rungs' rounding."""
+    """Returns the factor by which Romberg's columns with these exponents enlarge rounding."""
     return math.prod((2.0**p + 1) / (2.0**p - 1) for p in exponents)
 
 
@@ -133,7 +133,7 @@ def _settled(off: float, uncertainty: float, allow: float) -> str | None:
 
 
 def _slow_remainder(rungs: Sequence[Array], declared: int) -> float:
-    """How far from its limit the finest rung may be, where it falls more slowly than declared.
+    """Bounds the finest rung's distance to its limit where errors fall more slowly than declared.
 
     As those of a solver that is stopped too soon, or of an engine that is late, do: as much is left
     as the differences would still sum up to.
@@ -144,7 +144,7 @@ def _slow_remainder(rungs: Sequence[Array], declared: int) -> float:
 
 
 def _lateness(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
-    """How far from its limit the finest rung may be behind an event: there no order shows it.
+    """Bounds the finest rung's distance to its limit behind an event, where no order shows it.
 
     An engine that sees it at the end of a step is late by what is left of that step, and on h, 2h,
     4h … these parts may differ by whole steps, and still all be short of one by the same.
@@ -153,7 +153,7 @@ def _lateness(rungs: Sequence[Array], behind: NDArray[np.bool_]) -> float:
 
 
 def _growth(rungs: Sequence[Array], sizes: Sequence[float], off: float) -> float:
-    """How far from its limit the finest rung may be, where differences grow as the step falls.
+    """Bounds the finest rung's distance to its limit where differences grow as the step falls.
 
     As where a fast turn is damped away on all coarse rungs: they are off by the same, and only
     where the step begins to resolve it the error begins to fall, ever faster.
@@ -193,7 +193,7 @@ class _Size:
 
 
 def _order_range(orders: Sequence[float]) -> Orders:
-    """The finest of the orders, the least and the largest."""
+    """Returns the finest of the orders, the least and the largest."""
     return (orders[0], min(orders), max(orders)) if orders else NO_ORDER
 
 

@@ -46,7 +46,7 @@ def away_from_instants(trial: Trial) -> NDArray[np.bool_]:
 
 
 def _words(trial: Trial, t: float) -> str | None:
-    """The first sample, or what happens within a few steps of t [s]."""
+    """Names the first sample, or the event within a few steps of t [s]."""
     if t == 0.0:
         return "the first sample"
     near = [s for s in trial.reference.switches if abs(s - t) < BESIDE * trial.step]

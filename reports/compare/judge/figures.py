@@ -120,7 +120,7 @@ def _gain(scene: Scene, trajectory: Trajectory) -> Array:
 
 
 def _gap(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
-    """The widest of the joints."""
+    """Yields the gap of the joint that is widest open."""
     gaps = {
         name: float(np.max(np.abs(observe(scene, motion, f"{name}.gap"))))
         for name in scene.joints
@@ -132,7 +132,7 @@ def _gap(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
 
 
 def _passed(scene: Scene, motion: Trajectory) -> Iterator[Plain]:
-    """How far each rope or stop is passed at most."""
+    """Yields by how much each rope or stop is exceeded at most."""
     whole = _motion(scene, motion.record or motion)
     for limit in scene.limits():
         least = min(float(np.min(gaps, initial=0.0)) for gaps in limit.gaps(whole))
@@ -149,7 +149,7 @@ BESIDES = 0.05  # of the fastest growth by what else acts: an engine has it by a
 
 
 def depth(scene: Scene, contact: Any, motion: Trajectory) -> Iterator[Plain]:
-    """How deep it is at most; feet that pass the floor are meant to."""
+    """Yields a contact's largest depth; feet that pass the floor are meant to."""
     whole = _motion(scene, motion.record or motion)
     if contact.name in scene.pairs:
         heights = [contact.observe(whole, "gap")[_faced(contact, whole)]]
@@ -161,7 +161,7 @@ def depth(scene: Scene, contact: Any, motion: Trajectory) -> Iterator[Plain]:
 
 
 def _faced(pair: Any, motion: Motion) -> Any:
-    """(N,) where it touches a rim, or a face within its ends."""
+    """Returns the samples (N,) at which a contact touches a rim, or a face within its ends."""
     return slice(None) if pair.face is None else ~pair.beyond(motion)
 
 
@@ -172,7 +172,7 @@ def _motion(scene: Scene, trajectory: Trajectory) -> Motion:
 def creep(
     scene: Scene, name: str, reference: Trajectory, motion: Trajectory, away: Rows
 ) -> Iterator[Plain]:
-    """The mean slip of what sticks in the reference, without the start."""
+    """Yields the mean slip where the reference sticks, without the start."""
     slip = observe(scene, reference, f"{name}.slip")
     sticks = (np.abs(slip) <= STILL) & away
     if name in (*scene.contacts, *scene.pairs):
@@ -187,7 +187,7 @@ def creep(
 def friction(
     scene: Scene, contact: Any, reference: Trajectory, motion: Trajectory, away: Rows
 ) -> Iterator[Plain]:
-    """The mean of tangent over normal force while it touches and slips in the reference."""
+    """Yields the mean ratio of tangent to normal force while the reference touches and slips."""
     names = [f"{contact.name}.{field}" for field in ("tangent", "normal")]
     if not contact.friction or not all(name in motion.reactions for name in names):
         return

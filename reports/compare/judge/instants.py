@@ -64,13 +64,13 @@ def judge(
 
 
 def _miscounted(trial: Trial, samples: Samples, event: str) -> float:
-    """By how many the counts differ; what such steps cannot tell is worse than none."""
+    """Returns by how many the counts differ; what such steps cannot tell is worse than none."""
     off = trial.timing.miscounted(event, len(samples[f"{event}.time"]), trial.step)
     return 0.5 if off is None else off
 
 
 def _largest(trial: Trial, samples: Samples, name: str) -> float:
-    """The largest error of those events that both have."""
+    """Returns the largest error of the events that both have."""
     event = trial.quantity(name).part
     partners = trial.timing.partners(event, samples[f"{event}.time"])
     if not len(partners):
@@ -95,7 +95,7 @@ def _count(trial: Trial, event: str, worst: Begun) -> Comparison:
 
 
 def _row(trial: Trial, name: str, worst: Begun, runs: Runs, climbs: Sequence[Study]) -> Comparison:
-    """Times or states in their order, as many as both have; the count is another row's matter."""
+    """Returns the row of an event's times or states, of as many as both have, in their order."""
     event, samples, timing = trial.quantity(name).part, worst.samples, worst.trial.timing
     values = samples[name]
     times, partners = timing.events[event], timing.partners(event, samples[f"{event}.time"])
@@ -124,7 +124,7 @@ def spread(trial: Trial, name: str) -> str:
 
 
 def _ladder_errors(trial: Trial, name: str, runs: Runs) -> Iterator[Study]:
-    """For each ladder: the convergence of the errors by step, inf where the count is another one.
+    """Yields each ladder's convergence of the errors by step, inf where the count differs.
 
     They compare the events that the largest step of all can tell, or else the first.
     """
@@ -151,7 +151,7 @@ def off(trial: Trial, name: str, samples: Samples, step: float, first: int = 0) 
 
 
 def _first(trial: Trial, name: str, climbed: Mapping[float, Samples]) -> int:
-    """How many of its events are compared on a ladder."""
+    """Returns how many events are compared on a ladder."""
     event, most = trial.quantity(name).part, len(trial.wanted(name))
     whole = all(len(samples[name]) == most for samples in climbed.values())
     if whole and not trial.case.events[event].crosses:

@@ -32,12 +32,12 @@ def error(samples: Array, reference: Array) -> Error:
 
 
 def sizes(d: Array) -> Array:
-    """(N,) of differences (N,), or of turns (N, 3) the angles."""
+    """Returns the sizes (N,) of differences (N,), or the angles of turns (N, 3)."""
     return np.abs(d) if d.ndim == 1 else np.linalg.norm(d, axis=1)
 
 
 def largest(d: Array) -> float:
-    """The largest of them."""
+    """Returns the largest size of the differences."""
     return float(np.max(sizes(d)))
 
 

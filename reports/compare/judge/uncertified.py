@@ -11,7 +11,7 @@ MOVES = tuple(f"generated {what}" for what in ("motion", "accelerations", "react
 
 
 def uncertified(solution: Solution) -> str:
-    """Why nothing can be judged by it, in words."""
+    """Returns in words why nothing can be judged by a solution."""
     broken = next(check for check in solution.checks if not check.holds)
     differs = f"{broken.name} differs by {broken.difference:.2e}, its bound is {broken.bound:.2e}"
     return f"the reference is not certified: {otherwise(solution)}{differs}"

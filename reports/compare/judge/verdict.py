@@ -42,7 +42,7 @@ def verdict(
 
 
 def _broken(trial: Trial, quantity: str, largest: float, convergence: Convergence) -> str:
-    """Which bar of a tuned setting is not kept, or nothing."""
+    """Names the bar of a tuned setting that is not kept, or nothing."""
     engine, native = trial.engine.name, trial.realised == "native"
     allowed = trial.allowed(quantity)
     assert allowed is not None

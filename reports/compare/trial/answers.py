@@ -36,7 +36,7 @@ class BadAnswer(Exception):
 
 
 def plans(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
-    """Each way once. Raises BadAnswer."""
+    """Asks an engine for its plans, each way once. Raises BadAnswer."""
     answer: Any = engine.plans(scene, start)
     if not isinstance(answer, Sequence) or isinstance(answer, str):
         raise BadAnswer(f"plans should be a list of plans and refusals, is {_kind(answer)}")
@@ -68,7 +68,7 @@ def _way(way: Any) -> Plan | Refusal:
 
 
 def moved(trajectory: Any, scene: Scene, times: Array) -> Trajectory:
-    """A run's trajectory. Raises BadAnswer where it is another than was asked for."""
+    """Checks a run's trajectory. Raises BadAnswer where it is another than was asked for."""
     if not isinstance(trajectory, Trajectory):
         raise BadAnswer(f"run should give a trajectory, gives {_kind(trajectory)}")
     _check_rows("times", trajectory.times, times.shape)
@@ -117,7 +117,7 @@ def claimed(answer: Any, wanted: Sequence[str], scene: Scene, count: int) -> dic
 
 
 def by_quantity(answer: Any) -> Mapping[str, Any]:
-    """An answer about states. Raises BadAnswer where it is none."""
+    """Checks that an answer about states is a mapping. Raises BadAnswer."""
     if not isinstance(answer, Mapping):
         raise BadAnswer(f"answer should tell each quantity by its name, tells {_kind(answer)}")
     return answer

@@ -51,7 +51,7 @@ def audited(trial: Trial) -> tuple[dict[str, float], dict[str, float], dict[str,
 
 
 def _relative(difference: float, size: float) -> float:
-    """To the number itself, as small as it may be; what is no number differs most of all."""
+    """Returns a difference relative to a number, however small; NaN differs most of all."""
     relative = abs(difference / size) if size else abs(difference)
     return math.inf if math.isnan(relative) else relative
 

@@ -42,7 +42,7 @@ class Book:
     own_step: float | None = STEP
 
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan]:
-        """It is only offered where it applies; a fixed step that crosses events is of order 1."""
+        """Returns its one plan, a native one; a fixed step that crosses events is of order 1."""
         forces = ("fx", "fy", "force", "torque", "friction")
         sharp = f", A = {A:g} s/m" if self.setting == "smooth" else ""
         return [
@@ -61,7 +61,7 @@ class Book:
         ]
 
     def measure(self, scene: Scene, start: Start) -> dict[str, float]:
-        """Its block is the case's."""
+        """Returns the mass of its block, which is the case's."""
         return {"block.mass": self.system.m}
 
     def run(
@@ -89,12 +89,12 @@ class Book:
         title: str = "",
         duration: float = 1.0,
     ) -> str:
-        """There is no engine to paste it into."""
+        """Returns no script: there is no engine to paste it into."""
         return ""
 
 
 def _numbers(step: float) -> Sequence[Choice]:
-    """The book's."""
+    """Returns the band and the sharpness that the book's examples have."""
     return Choice("band", DELTA, "Examples 2.3 and 2.4"), Choice("sharpness", A, "the same")
 
 

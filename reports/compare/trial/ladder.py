@@ -43,7 +43,7 @@ def judged_step(case: Case, engine: Engine) -> float:
 
 
 def _whole(ratio: float) -> int:
-    """Rounded up, but not for a ratio that is whole up to rounding."""
+    """Rounds a ratio up, unless it is whole up to rounding."""
     return max(1, -int(-(ratio - WHOLE) // 1))
 
 

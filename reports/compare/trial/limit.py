@@ -19,7 +19,7 @@ def limit(worth: float = 0.0) -> float:
 
 
 def choose(seconds: float | None) -> None:
-    """Another one from now on; None: the usual one, or what the environment says.
+    """Sets the limit from now on; None: the usual one, or what the environment says.
 
     Raises ValueError where this, or the environment's word of the memory, is no number above 0.
     """
@@ -66,7 +66,7 @@ def limit_memory(jobs: int) -> None:
 
 
 def _data_size() -> int:
-    """Bytes of data that this process has, as its parent had them; 0 where nothing tells."""
+    """Returns the data [bytes] of this process, as its parent had them; 0 where nothing tells."""
     with (
         suppress(OSError, ValueError, IndexError),
         open("/proc/self/status", encoding="ascii") as status,
@@ -87,13 +87,13 @@ def memory_limit_text() -> str:
 
 
 def _share(jobs: int) -> float:
-    """GiB of each of so many processes."""
+    """Returns the memory [GiB] that each of so many processes may take."""
     all_of_it = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / GIB
     return _from_environment(max(LEAST, SHARE * all_of_it / jobs))
 
 
 def _from_environment(usual: float) -> float:
-    """GiB that the environment gives each process."""
+    """Returns the memory [GiB] that the environment gives each process, else the usual."""
     with suppress(KeyError, ValueError):
         if (said := float(os.environ[MEMORY])) > 0.0:
             return said

@@ -48,12 +48,12 @@ class Rung:
 
     @property
     def name(self) -> str:
-        """For whoever waits for it."""
+        """The name that progress shows."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
 
     @property
     def steps(self) -> float:
-        """How many the engine takes."""
+        """The number of steps that the engine takes."""
         return self.case.duration / self.step
 
     @property

@@ -23,7 +23,7 @@ def moving(case: Case) -> Case:
 
 
 def ways_of(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]:
-    """How a case is tried, whatever it claims; what an engine raises is a way that fails."""
+    """Returns the ways in which a case is tried; what an engine raises is a way that fails."""
     if case.states is None:
         return planned(engine, case.scene, start)
     try:
@@ -49,7 +49,7 @@ def ways(engine: Engine, case: Case, start: Start) -> tuple[Plan | Refusal, ...]
 
 
 def rung(trial: Trial) -> Rung:
-    """The one run: all states at once."""
+    """Returns the one run of a claim about states: all of them at once."""
     most = dict.fromkeys(trial.motion, float("inf"))
     return Rung(trial.case, trial.engine, trial.start, trial.plan, trial.case.duration, most)
 

@@ -25,7 +25,7 @@ SAME_COUNT = 0.5  # what counts may differ by where the case does not say: they 
 
 
 def ways(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
-    """How a scene is tried: beside a law or driver always a native row, or why there is none."""
+    """Returns the ways in which a scene is tried, or refused, a native one always among them."""
     answered = plans(engine, scene, start)
     native = any(way.realised == "native" for way in answered)
     return answered if native else (Refusal("native", NOTHING_OF_ITS_OWN), *answered)
@@ -43,7 +43,7 @@ def with_room(
 
 
 def planned(engine: Engine, scene: Scene, start: Start) -> tuple[Plan | Refusal, ...]:
-    """As `ways`; what an engine raises is one native way, which fails when it is tried."""
+    """Returns `ways`; what an engine raises is one native way, which fails when it is tried."""
     try:
         return ways(engine, scene, start)
     except KeyboardInterrupt:
@@ -96,7 +96,7 @@ class Trial:
         return {}
 
     def read(self, quantity: str, samples: Array) -> Array:
-        """A run's samples beside `wanted`: of an attitude the turn from the reference's."""
+        """Returns a run's samples to compare with `wanted`; of an attitude the turn from it."""
         if samples.ndim == 1 or quantity in self.case.scene.bodies:
             return samples  # numbers, times of events, and a body's poses
         return from_reference(samples, observe(self.case.scene, self.reference, quantity))
@@ -113,7 +113,7 @@ class Trial:
         }
 
     def _sources(self, name: str) -> tuple[str, ...]:
-        """The quantity itself with what it follows from, and that of the event."""
+        """Returns the quantity with those it follows from, or an event's with that of its state."""
         if not self._dated(name):
             return (name, *self.case.scene.told_by(name))
         event = self.case.events[self.quantity(name).part].quantity
@@ -185,7 +185,7 @@ class Trial:
         return seen | event_quantities(events) | at_events(events, seen)
 
     def size(self, name: str) -> float:
-        """How large the quantity is; a residual, meant to be zero, has the size of its motion."""
+        """Returns the quantity's size; a residual, meant to be zero, has the size of its motion."""
         wanted = self.wanted(name)
         size = float(np.max(np.abs(wanted))) if wanted.ndim == 1 else 1.0  # rad
         if self.quantity(name).kind == "residual":

@@ -34,7 +34,7 @@ def too_long(cases: Sequence[Case], engines: Sequence[Engine]) -> list[Mistake]:
 
 
 def _too_long(cases: Sequence[Case], engine: Engine) -> Iterator[Mistake]:
-    """At the variant that asks for most."""
+    """Yields a mistake at the variant that asks for most, if it is too much."""
     counts = [_steps(case, engine) for case in cases]
     steps, most = sum(counts), cases[counts.index(max(counts))]
     if steps > STEPS:
@@ -71,7 +71,7 @@ def _mistake(case: Case, engine: Engine, what: str, limit: str) -> Mistake:
 
 
 def pace(case: Case, engine: Engine) -> float:
-    """About how long a step takes [s]."""
+    """Estimates how long a step takes [s]."""
     usual = STEP + BODY * len(case.scene.bodies)
     if not isinstance(engine, Paced):
         return usual

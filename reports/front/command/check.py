@@ -84,7 +84,7 @@ def check(files: tuple[str, ...], jobs: int | None, wants_json: bool, allow_long
 def _checked(
     files: Sequence[str], engines: "Sequence[Engine]", jobs: int, *, long: bool
 ) -> list[Checked]:
-    """Each of the files; solved in processes of their own, each with its share of the memory."""
+    """Checks each file; cases are solved in processes, each with its share of the memory."""
     from ...runs.processes.pool import Died, local, spread
     from ..show.progress import progress
 

@@ -68,7 +68,7 @@ def check_engine(name: str, grades: tuple[str, ...], jobs: int | None, wants_jso
 
 
 def _engine(name: str) -> "tuple[Engine | None, list[Mark]]":
-    """The engine, or why it cannot be made. Raises CaseError where there is no such."""
+    """Returns an engine, or marks why it cannot be made. Raises CaseError for an unknown name."""
     from .... import engines
     from ...compare.adapter_check import Mark
 
@@ -94,7 +94,7 @@ def _unknown(name: str, known: Sequence[str]) -> Mistake:
 
 
 def _marks(engine: "Engine", words: Sequence[str], jobs: int | None) -> "list[Mark]":
-    """Its members, and each grade in a process that may die."""
+    """Returns the marks of an engine's members and grades, each tried in its own process."""
     from ...compare.adapter_check import GRADES, Attempt, marked, members
     from ...runs.processes.pool import Died, local, spread, workers
     from ...runs.selection import choose_cases

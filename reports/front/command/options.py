@@ -32,7 +32,7 @@ class Finite(click.FloatRange):
     """A number in a range; nan, which compares with no bound, and inf are none."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The number."""
+        """Returns the number, or fails if it is out of range."""
         number = super().convert(value, param, ctx)
         if not isfinite(number):
             self.fail(f"{number} is no finite number", param, ctx)
@@ -163,14 +163,14 @@ class Folder(click.Path):
 
 
 def _unmade(folders: Sequence[Path]) -> None:
-    """Away with what was made, the innermost first, and has nothing in it: a refused command's."""
+    """Removes the empty folders that a refused command made, the innermost first."""
     with suppress(OSError):
         for folder in folders:
             folder.rmdir()
 
 
 def _try_writing(folder: Path) -> None:
-    """Makes something there and takes it away, if it is interrupted too. Raises OSError."""
+    """Checks a folder for writing: makes a folder in it and removes it. Raises OSError."""
     probe = f"{folder}{os.sep}.writing-{os.getpid()}"
     try:
         os.mkdir(probe)

@@ -29,12 +29,12 @@ class Task:
 
     @property
     def name(self) -> str:
-        """For whoever waits for it."""
+        """The name that progress shows."""
         return self.case.name
 
     @property
     def limit(self) -> float:
-        """How long it may take [s]."""
+        """The time [s] that it may take."""
         from ....cases.language.check.work import LIMIT
 
         return LIMIT

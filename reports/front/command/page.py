@@ -87,7 +87,7 @@ def page(
 
 
 def _there(rows: Path) -> None:
-    """Before minutes of work. Raises Missing or ValueError where the reports cannot be read."""
+    """Checks the reports before minutes of work. Raises Missing or ValueError."""
     from ..page.folder import folder
 
     folder(rows)

@@ -62,7 +62,7 @@ def versions(
     from ...tables import write
     from ...tables.ownership import unasked
     from ..versions.measure import measure
-    from ..versions.motions import told
+    from ..versions.motions import motion_lines
     from ..versions.release import parted
     from ..versions.table import NAME, table, text
 
@@ -89,7 +89,7 @@ def versions(
         write.write({NAME: rows}, out, overwrite=overwrite)
         DONE.append(f"{NAME} is in {out}")
     say(text(rows, shutil.get_terminal_size().columns))
-    for line in told(models.cases, measured):
+    for line in motion_lines(models.cases, measured):
         say(line)
     if out is not None:
         say(f"written to {out / NAME}")

@@ -52,7 +52,7 @@ def _step(seconds: str) -> str:
 
 
 def _times(row: Mapping[str, str]) -> str:
-    """The cost over shipped's."""
+    """Formats the cost over that of the shipped setting."""
     cost, shipped = row["cost"], row["shipped_cost"]
     return factor(float(cost) / float(shipped)) if cost and shipped else ""
 

@@ -97,7 +97,7 @@ def _release(version: str) -> list[tuple[bool, Any]]:
 
 
 def records(frame: pd.DataFrame, columns: tuple[str, ...]) -> list[dict[str, str]]:
-    """Its rows with these columns, empty where the file has none of them."""
+    """Returns a frame's rows with these columns, empty where it lacks them."""
     return [
         {name: row.get(name, "") for name in columns}
         for row in frame.astype(str).to_dict("records")  # pyright: ignore[reportReturnType]

@@ -38,7 +38,7 @@ class Column:
 
 
 def column(row: Comparison | Rungs | StepError | Instant) -> Column:
-    """Where a row belongs."""
+    """Returns the column of a row."""
     return Column(row.engine, row.setting, row.realised)
 
 

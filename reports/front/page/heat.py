@@ -46,7 +46,7 @@ class Cell:
 
     @property
     def shade(self) -> int:
-        """0 where nothing is seen of the error, 3 just within, 4 just beyond, 7 far off."""
+        """The cell's shade: 0 for no visible error, 3 just within, 4 just beyond, 7 far off."""
         if self.ratio is None:
             return len(SHADES) if self.kind in (DIVERGED, CRASHED) else 0
         return bisect_left(SHADES, self.ratio)
@@ -68,7 +68,7 @@ class Cell:
 
 
 def cells(rows: Sequence[Comparison], rungs: Sequence[Rungs]) -> dict[tuple[str, Column], Cell]:
-    """By case and column, of those that have rows."""
+    """Returns the cells by case and column."""
     compared: dict[tuple[str, Column], list[Comparison]] = {}
     climbed: dict[tuple[str, Column], list[Rungs]] = {}
     for row in rows:

@@ -118,7 +118,7 @@ def _stated(method: Any) -> Iterator[Equation]:
 
 
 def _equation(numbers: str, line: str) -> Equation | None:
-    """None of a line that states none."""
+    """Returns the equation that a line states, or None."""
     line = SHAPE.sub("", line.rstrip(".:")).replace("`", "")
     unit = UNIT.search(line)
     text = UNIT.sub("", line).rstrip(".,: ")
@@ -228,6 +228,6 @@ def _scripted(element: str, after: re.Match[str]) -> str:
 
 
 def _split(element: str) -> tuple[str, str]:
-    """A function's name, and what joins its argument to it."""
+    """Splits a function's name from its argument."""
     name = element.removesuffix(APPLIED)
     return (name, APPLIED) if name != element else (element, "")

@@ -25,7 +25,7 @@ TRAIL = 400  # points of what a body has drawn behind it: twenty loops of twenty
 
 
 def motions(report: Report) -> dict[str, Motion]:
-    """By case, of those that have a reference and claim a motion, and of models with a limit."""
+    """Returns the motion of each case that has and claims one, and of each model with a limit."""
     of: dict[str, list[Tried]] = {}
     for run in report.tried:
         of.setdefault(run.pair.case.name, []).append(run)
@@ -37,7 +37,7 @@ def motions(report: Report) -> dict[str, Motion]:
 
 
 def way(run: Tried) -> str:
-    """`mujoco.tuned.native`."""
+    """Names a way of running a case: `mujoco.tuned.native`."""
     return f"{run.pair.engine.name}.{run.pair.engine.setting}.{run.realised}"
 
 
@@ -90,7 +90,7 @@ def _trail(case: Case, times: Array, moved: Mapping[str, Array]) -> list[list[fl
 
 
 def _ghost(run: Tried, reference: Mapping[str, Array], case: Case, drawing: Drawing) -> Any:
-    """Its poses; None where the reference's drawing covers them, nothing where it has none.
+    """Returns the poses of a run; None where the reference covers them, nothing without any.
 
     held: whether it is drawn at its samples alone, because nobody knows the way between them.
     """

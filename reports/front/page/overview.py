@@ -43,7 +43,7 @@ def overview(folder: Folder, cells: Cells, columns: Sequence[Column]) -> dict[st
 
 
 def _key(curve: Curve) -> dict[str, str]:
-    """Its label, and the colour and dashes of its line, as SVG has them."""
+    """Returns a column's label, and the colour and dashes of its line, as SVG has them."""
     _, setting = curve.name.split(" ", 1)
     dash = " ".join(str(2 * x) for x in curve.dash[1]) if isinstance(curve.dash, tuple) else "none"
     meaning = SETTINGS.get(setting)

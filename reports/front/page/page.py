@@ -172,7 +172,7 @@ APPROXIMATED = (
 
 
 def stick_slip(cases: Sequence[Case], motions: Mapping[str, Motion]) -> list[dict[str, str]]:
-    """Which pictures are drawn, each with its words."""
+    """Returns the stick-slip pictures that are drawn, each with its words."""
     by_system = {case.system: case.name for case in cases if case.system and case.name in motions}
     return [
         {"case": by_system[system], "quantity": quantity, "plot": plot, "caption": caption}

@@ -36,7 +36,7 @@ def colour(engine: str) -> str:
 
 
 def style(column: Column, among: Iterable[Column]) -> dict[str, Any]:
-    """How its line is drawn beside those of all others: by engine, setting and way.
+    """Returns how a column's line is drawn beside all others: by engine, setting and way.
 
     As shipped its markers are hollow, as recommended half filled, tuned they are full.
     """
@@ -55,7 +55,7 @@ def style(column: Column, among: Iterable[Column]) -> dict[str, Any]:
 
 
 def svg(figure: Figure, name: str) -> str:
-    """To stand in a page: in the ink of its text, with a name, and the same bytes every time."""
+    """Returns a figure as SVG for a page: in its text's ink, named, the same bytes every time."""
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": name}):
         out = StringIO()
         figure.savefig(out, format="svg", transparent=True, metadata=UNDATED)
@@ -69,7 +69,7 @@ def svg(figure: Figure, name: str) -> str:
 
 
 def save(figure: Figure, file: Path) -> None:
-    """As a file of its own, on white, that says whose it is (`ours` reads it).
+    """Saves a figure as a file, on white, that says whose it is (`ours` reads it).
 
     Raises OSError: then what stood there stands there.
     """

@@ -183,7 +183,7 @@ Pose = Mapping[str, Array]
 
 
 def strobe(axes: Any, motion: Motion, ghosts: Sequence[Column]) -> None:
-    """Draws it; ghosts: the ways whose last instant is drawn beside the reference's.
+    """Draws a mechanism in motion; ghosts: ways whose last instant is drawn beside it.
 
     The scale is the mechanism's: a ghost that fell away leaves the picture.
     """

@@ -48,7 +48,7 @@ class Poses:
         }
 
     def at(self, times: Array) -> dict[str, Array]:
-        """By part (N, k), its pose at each of the times."""
+        """Returns the pose (N, k) of each part at the times."""
         return {part: cubic(self.times, *moved, times) for part, moved in self.moves.items()}
 
 
@@ -114,7 +114,7 @@ def drawn(
 
 
 def _within(frame: Frame, reaches: Mapping[str, float], moves: Moves, close: float) -> Array:
-    """How far off each column of all poses may be: a turn by what it moves the body's farthest."""
+    """Returns the bound of each column of poses; of a turn by what it moves the farthest point."""
     n, margins = frame.dimension, list[float]()
     for part, (pose, _) in moves.items():
         turns = pose.shape[1] - n
@@ -125,7 +125,7 @@ def _within(frame: Frame, reaches: Mapping[str, float], moves: Moves, close: flo
 
 
 def _needed(times: Array, moves: Moves, within: Array) -> NDArray[np.int64]:
-    """Which samples are kept: the worst of those that cubics miss, until they miss none."""
+    """Returns the samples kept: the worst that cubics miss are added until they miss none."""
     places = np.hstack([pose for pose, _ in moves.values()])
     rates = np.hstack([rate for _, rate in moves.values()])
     kept, open_ends = {0, len(times) - 1}, [(0, len(times) - 1)]

@@ -31,7 +31,7 @@ class Words:
 
 
 def rows(folder: Folder, columns: Sequence[Column]) -> dict[str, Any]:
-    """By case: comparisons, ladders, instants and certificates; words and columns by number."""
+    """Returns by case comparisons, ladders, instants, checks; words and columns by number."""
     place: Mapping[Column, int] = {col: k for k, col in enumerate(columns)}
     words, cases = Words(), dict[str, dict[str, list[Any]]]()
     kinds = ("rows", "ladders", "instants", "checks", "causes")

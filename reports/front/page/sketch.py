@@ -51,7 +51,7 @@ def _forces(scene: Scene) -> list[dict[str, Any]]:
 
 
 def _one_sided(force: Any) -> dict[str, Any]:
-    """On which side of which length [m] a spring acts, where it does so on one alone."""
+    """Returns the side and length [m] at which a one-sided spring acts."""
     only = getattr(force, "only", None)
     return {} if only is None else {"only": only, "rest": force.rest_length}
 
@@ -80,7 +80,7 @@ def _end(scene: Scene, anchor: Anchor) -> list[Any]:
 
 
 def _joint(scene: Scene, joint: Any) -> dict[str, Any]:
-    """Its place on its second part, and the line on its first along which that may shift."""
+    """Returns a joint's place on its second part, and the line on its first that it shifts on."""
     ends = joint.refers()
     entry: dict[str, Any] = {"at": _end(scene, ends[-1])}
     along = _along(joint)
@@ -90,12 +90,12 @@ def _joint(scene: Scene, joint: Any) -> dict[str, Any]:
 
 
 def _along(joint: Any) -> Any:
-    """The direction of its one shift, in the axes of its first part."""
+    """Returns the direction of a joint's one shift, in the axes of its first part."""
     return joint.shifts[0].axis if len(joint.shifts) == 1 else None
 
 
 def _blade(scene: Scene, edge: Any, arm: float) -> dict[str, Any]:
-    """Both its ends on its body."""
+    """Returns both ends of a blade on its body."""
     place = np.asarray(scene.bodies[edge.at.body].points[edge.at.point])
     along = arm * np.asarray(edge.along)
     return {"body": edge.at.body, "line": [rounded(place - along), rounded(place + along)]}

@@ -147,7 +147,7 @@ LONG = 0.05  # s: what is shorter is run as often as fills it, for its least tim
 
 
 def ratio(pair: Pair, candidate: Candidate, over: Candidate) -> float | None:
-    """CPU time of all steps of the candidate's run over the other's; None where one is refused."""
+    """Returns the CPU time of a candidate's steps over another's; None where one is refused."""
     one, other = (trial_of(pair, each) for each in (candidate, over))
     if one is None or other is None:
         return None
@@ -161,7 +161,7 @@ def _whole(trial: Trial) -> float:
 
 
 def _setup(trial: Trial) -> float:
-    """CPU time [s] of building alone, and one step: to be taken off."""
+    """Returns the CPU time [s] of building and one step, to be subtracted."""
     return _seconds(trial, trial.step)
 
 

@@ -32,7 +32,7 @@ def known(cases: Sequence[Case], causes: Iterable[Cause]) -> Cures:
 
 
 def cures(folder: Path) -> Cures:
-    """By case, engine, setting and quantity, in words: the two cheapest, with their steps.
+    """Returns the two cheapest cures in words, by case, engine, setting and quantity.
 
     The report has a row for each cure, the cheapest first; what was not searched is not told.
     """
@@ -70,7 +70,7 @@ def _joined(rows: Iterable[tuple[Any, ...]]) -> Cures:
 
 
 def _cure_text(cure: str, step: str | float | None) -> str:
-    """With the step, where that is what is changed; a law or driver of ours by its short name."""
+    """Returns a cure with its step, where that is changed; a law or driver by its short name."""
     if cure.startswith(OURS):
         return next(word for word in OURS if cure.startswith(word))
     changed = cure.split(" + ")[-1] == "step"

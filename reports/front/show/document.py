@@ -21,7 +21,7 @@ Document = Mapping[str, Any]
 
 
 def write(document: Document) -> None:
-    """Prints it; a number that is not finite, which JSON has not, is null."""
+    """Prints a document; a number that is not finite, which JSON lacks, is null."""
     say(json.dumps(_finite(document), indent=2, allow_nan=False))
 
 
@@ -77,7 +77,7 @@ def of_cases(cases: "Sequence[Titled]") -> Document:
 
 
 def mistakes(wrong: Sequence[Mistake]) -> list[dict[str, Any]]:
-    """Each with its place; line and column count from 1, and 0 is the whole file."""
+    """Returns each mistake with its place; line and column from 1, and 0 is the whole file."""
     return [
         {"file": m.file, "line": m.line, "column": m.column, "field": m.where, "what": m.what}
         for m in wrong

@@ -175,7 +175,7 @@ def _members(kind: type) -> Iterator[tuple[str, str]]:
 
 
 def _joints() -> str:
-    """Which freedoms each kind of joint leaves, in the plane and in space."""
+    """Returns the freedoms that each kind of joint leaves, in the plane and in space."""
     plane = [
         [
             f"`{kind}`",
@@ -253,7 +253,7 @@ def _cell(text: str) -> str:
 
 
 def _string(node: ast.stmt | None) -> str:
-    """A docstring below a field."""
+    """Returns the docstring below a field."""
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         return " ".join(str(node.value.value).split())
     return ""

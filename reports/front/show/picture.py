@@ -55,7 +55,7 @@ class Curve:
 
     @property
     def label(self) -> str:
-        """Its name, and in which share of the cases all is within."""
+        """The curve's name, and the share of the cases in which all is within."""
         within = sum(ratio <= 1 for ratio in self.ratios) / len(self.ratios)
         return f"{self.name}: {within:.0%} of {len(self.ratios)}"
 
@@ -100,7 +100,7 @@ def worst(rows: Sequence[Comparison]) -> Mapping[tuple[str, str], list[float]]:
 
 
 def _curve(axes: Axes, curve: Curve) -> None:
-    """Which share of the cases is at worst so far off."""
+    """Returns the share of the cases that are at worst so far off."""
     ratios = curve.ratios
     x = np.clip([LEAST, *ratios, MOST], LEAST, MOST)
     finite = sum(ratio <= MOST for ratio in ratios)

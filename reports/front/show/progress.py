@@ -93,7 +93,7 @@ class Shown:
             self.said = now
 
     def watch(self, executor: Executor) -> None:
-        """Whose tasks are looked at while they work, if it tells what it is at."""
+        """Sets the executor whose tasks are shown while they work, if it tells what it is at."""
         self.working = getattr(executor, "doing", tuple)
 
 
@@ -140,6 +140,6 @@ def bar(what: str, done: int, total: int, rest: str, last: str) -> str:
 
 
 def fitting(line: str) -> str:
-    """The line as wide as the terminal."""
+    """Fits the line to the terminal's width."""
     width = shutil.get_terminal_size().columns - 1  # in the last column a line would break
     return f"{line[:width]:{width}}"

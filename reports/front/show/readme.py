@@ -44,7 +44,7 @@ TOLD = {
 
 
 def speed() -> str:
-    """A sentence, of the last time that `make speed` was run."""
+    """Returns a sentence on the times of the last `make speed`."""
     with (HERE / SPEED).open(encoding="utf-8", newline="") as lines:
         wall = {row["what"]: float(row["wall"]) for row in csv.DictReader(lines)}
     times = ", ".join(words.format(_about(wall[what])) for what, words in TOLD.items())
@@ -72,7 +72,7 @@ def listed() -> list[Row]:
 
 
 def releases(rows: Sequence[Row]) -> str:
-    """Which cases the table sweeps, and of each engine which release moved what in them."""
+    """Returns which cases the table sweeps, and which release of each engine moved what."""
     files = sorted({row["case"].partition(".")[0] for row in rows})
     frames = {load(of_the_book()[name])[0].scene.frame for name in files}
     where = "all of the plane" if frames == {PLANE} else "of the plane and of space"
@@ -86,7 +86,7 @@ def releases(rows: Sequence[Row]) -> str:
 
 
 def _release_changes(rows: Sequence[Row], swept: Sequence[str]) -> Iterator[str]:
-    """For each release that moved numbers which the one before had: how many moved, and where."""
+    """Yields for each release how many numbers it moved that the one before had, and where."""
     for before, now in pairwise(swept):
         had = {_place(row) for row in rows if row["version"] == before and row["error"]}
         moved = [
@@ -181,7 +181,7 @@ def current(file: str) -> str:
 
 
 def filled(text: str, part: Part) -> str:
-    """The text with the part in its place."""
+    """Returns the text with the part in its place."""
     opens, closes = f"<!-- {part.name}: ", f"<!-- /{part.name} -->"
     if (text.count(opens), text.count(closes)) != (1, 1):
         raise ValueError(f"{part.file} should have one {opens}… --> and one {closes}")
@@ -193,7 +193,7 @@ def filled(text: str, part: Part) -> str:
 
 
 def drawn() -> str:
-    """The picture as it should be."""
+    """Returns the README's picture as it should be."""
     return picture.picture(_committed_rows())
 
 
@@ -218,7 +218,7 @@ class Question:
 
 
 def listed_questions() -> Mapping[str, Question]:
-    """By the name of the case that answers, in the order in which they are to be read."""
+    """Returns the questions by the case that answers, in the order of reading."""
     questions = YAML(typ="safe").load(LISTED.read_text(encoding="utf-8"))
     return {name: Question(q["asks"], q["answer"], q["with"]) for name, q in questions.items()}
 
@@ -234,7 +234,7 @@ def questions() -> list[list[str]]:
 
 
 def _setting(engine: str, setting: Mapping[str, Any] | str) -> str:
-    """A file of settings, whole, or in words."""
+    """Returns a setting as a whole file, or in words."""
     if isinstance(setting, str):
         return f"{engine}: {WORDS[setting]}"
     return f"`{engine}: {as_text(setting)}`"
@@ -266,7 +266,7 @@ def _at_angle(item: tuple[tuple[str, str], list[float]]) -> tuple[str, float]:
 
 
 def _times(ratio: float) -> str:
-    """Below 1 only its size matters."""
+    """Formats a ratio; below 1 only its order of magnitude matters."""
     return f"{factor(ratio) if ratio > 1 else f'×{ratio:.1g}'} its tolerance"
 
 

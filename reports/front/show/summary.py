@@ -19,7 +19,7 @@ NATIVE = "native"
 
 
 def place(way: Way) -> tuple[float, str, str]:
-    """Where a way stands among others: the fewer changes, the earlier."""
+    """Returns the sort key of a way: the fewer changes, the earlier."""
     setting, realised = way
     return engines.place(setting), setting, realised
 
@@ -59,7 +59,7 @@ def _is_within(row: Comparison) -> bool:
 
 
 def _step(rows: Sequence[Comparison], ladder: Sequence[Rungs] | None) -> float | None:
-    """The largest from which on all is within: by the ladder, or the judged one; None: none is.
+    """Returns the largest step from which on all is within, by the ladder or as judged; or None.
 
     What is on no ladder (a count, say) has to be within where it was judged.
     """

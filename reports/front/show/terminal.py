@@ -22,7 +22,7 @@ from .table import WIDTH, narrow
 def show(
     report: Report, *, detailed: bool, written: Path | None, cures: Cures | None = None
 ) -> None:
-    """The summary, warnings, what fails, the rows of named cases, and where it was written."""
+    """Prints summary, warnings, what fails, rows of named cases, and where they were written."""
     models = {model.case.name for model in report.models}
     scenes = [row for row in report.comparisons if row.case not in models]
     certified = [row for row in report.certificates if row.case not in models]

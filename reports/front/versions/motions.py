@@ -55,7 +55,7 @@ def farthest(ready: Opened, a: Motion, b: Motion) -> Apart:
     return max(apart_by_quantity, key=lambda apart: apart.ratio)
 
 
-def told(cases: Sequence[ModelCase], measured: Sequence[Measured]) -> Iterator[str]:
+def motion_lines(cases: Sequence[ModelCase], measured: Sequence[Measured]) -> Iterator[str]:
     """Yields the lines of each model, with the releases in their order."""
     releases = [run for run in measured if run.release.engine == MUJOCO]
     for case in cases if releases else ():

@@ -129,7 +129,7 @@ class Keys:
         return _word("run", *(self.ways(case, engine) for case, engine in pairs))
 
     def _case(self, case: Case) -> str:
-        """All of a case but its text: a comment changes nothing."""
+        """Returns all of a case but its text: a comment changes nothing."""
         if id(case) not in self._words:  # each meets every engine
             values = [getattr(case, f.name) for f in fields(case) if f.name != "source"]
             self._words[id(case)] = case, repr(values)  # kept, so that its id stays its own
@@ -304,7 +304,7 @@ def machine() -> str:
 
 
 def _processor() -> str:
-    """Its model and features, where the system tells them."""
+    """Returns the processor's model and features, where the system tells them."""
     try:
         text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
     except OSError:

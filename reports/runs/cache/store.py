@@ -26,7 +26,7 @@ _OURS = re.compile(r"[0-9a-f]{64}|\.making-[a-z0-9_]{8}")
 
 
 def by_default() -> Path:
-    """The user's own: never the project's. The same from wherever a process looks.
+    """Returns the user's own folder, never the project's: the same for every process.
 
     Raises RuntimeError where the user has no home.
     """
@@ -83,7 +83,7 @@ class Store:
             return None
 
     def put(self, key: str, value: Any) -> None:
-        """Keeps it, if the disk takes it: who keeps nothing computes again."""
+        """Stores a result, if the disk takes it; else it is computed again."""
         with suppress(OSError):
             data = pickle.dumps(value)
             self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -97,14 +97,14 @@ class Store:
                 raise
 
     def drop(self, keys: Iterable[str]) -> None:
-        """Forgets what is in other results by now."""
+        """Deletes results that others contain by now."""
         for key in keys:
             with suppress(OSError):
                 (self.folder / key).unlink()
 
     @contextmanager
     def alone(self, key: str, waiting: Callable[[], None]) -> Iterator[None]:
-        """Waits for another process that computes the same, and then finds its results."""
+        """Waits for another process that computes the same, whose results are then found."""
         path = None
         with suppress(OSError):
             self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)

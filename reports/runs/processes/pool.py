@@ -42,7 +42,7 @@ class Died:
 
 
 def workers() -> int:
-    """As many as there are cores for this process."""
+    """Returns the number of cores for this process."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -181,7 +181,7 @@ class Processes(Executor):
             self._free.put(index)
 
     def _kill_pool(self) -> None:
-        """Ends its processes with what they have started; from Python 3.14 on `kill_workers`."""
+        """Kills a pool's processes and their children; from Python 3.14 on `kill_workers`."""
         for process in [*(getattr(self._pool, "_processes", None) or {}).values()]:
             end_group(process.pid)
             process.kill()

@@ -114,7 +114,7 @@ def leave_signals_to_parent() -> None:
 
 
 def _interrupt(*_: Any) -> None:
-    """Ends as an error does; at once if nobody hears it, or if it is said again."""
+    """Raises an interruption; ends at once if nobody handles it, or at a second signal."""
     for number in known_signals():
         signal.signal(number, _at_once)
     timer = threading.Timer(GRACE, _at_once)
@@ -124,7 +124,7 @@ def _interrupt(*_: Any) -> None:
 
 
 def _at_once(*_: Any) -> None:
-    """Workers see that their parent is gone."""
+    """Ends the process at once: its workers see that their parent is gone."""
     for last in reversed(_LAST):
         with suppress(Exception):
             last()

@@ -28,7 +28,7 @@ NO_STEPS = "a claim about states: no step and no option plays a part"
 
 @dataclass(frozen=True)
 class Listener:
-    """Who hears of a search on its way.
+    """Functions that are called while a search runs.
 
     begun: once each engine has run as shipped, before anything is searched; stopped: with what was
     tried so far, when the user interrupts it.
@@ -41,7 +41,7 @@ class Listener:
 def advise(
     pairs: Sequence[Pair], asked: Requirement, results: Results, listener: Listener | None = None
 ) -> list[Advised]:
-    """For each case in each engine as shipped; of all searches at once.
+    """Returns the advice for each pair of a case and an engine; all searches run together.
 
     Raises CaseError with what only solving finds.
     """
@@ -66,7 +66,7 @@ def advise(
 
 
 def _searched(advised: Advised, search: Search) -> Advised:
-    """With recipes that hold in every model that a user may have, though there without a margin.
+    """Adds recipes that hold, there without a margin, in every model that a user may have.
 
     What does not is left out, and the rest searched once more.
     """
@@ -99,7 +99,7 @@ def _searched(advised: Advised, search: Search) -> Advised:
 
 
 def _sampled(pairs: Sequence[Pair], results: Results) -> list[tuple[Pair, str]]:
-    """With the samples that the engine's own step meets; of those without a reference, why."""
+    """Returns the pairs with samples that the engine's step meets, and why one has no reference."""
     sampled = [at_own_samples(pair, results) for pair in pairs]
     answers = results.of("references", solved, {pair.key: pair.case for pair in sampled})
     wrong = {pair.key: mistakes_of(pair.case, answers[pair.key]) for pair in sampled}
@@ -170,7 +170,7 @@ def _prepared(pair: Pair, asked: Requirement, unsolved: str, broken: str) -> Adv
 
 
 def _scale(trial: Trial, tolerance: float | None) -> Mapping[str, float]:
-    """From the case's tolerances to a part of each quantity's size; events happen as often.
+    """Scales tolerances to a part of each quantity's size; counts of events stay exact.
 
     What is zero has no size: it is asked for what the case allows.
     """

@@ -52,7 +52,7 @@ class Candidates:
     _sets: dict[int, list[Choice]] = field(default_factory=dict[int, list[Choice]])
 
     def choices(self, size: int) -> list[Choice]:
-        """Every choice of `size` options."""
+        """Returns every choice of `size` options."""
         if size not in self._sets:
             single = [[_choice(k, v) for v in k.values] for k in self._knobs(bundle=False)]
             self._sets[size] = [
@@ -63,7 +63,7 @@ class Candidates:
         return self._sets[size]
 
     def bundles(self, more: int) -> list[Choice]:
-        """Whole recipes, the tuned one too, alone or with so many options more."""
+        """Returns whole recipes, the tuned one too, alone or with so many options more."""
         named = [_choice(knob, v) for knob in self._knobs(bundle=True) for v in knob.values]
         return [
             whole.also(choice)
@@ -88,12 +88,12 @@ class Candidates:
 
     @property
     def coarse(self) -> list[float]:
-        """Steps that are no change: as large as its own or larger."""
+        """The steps at least as large as its own, which are no change."""
         return [step for step in self.steps if step >= self.own * (1 - WHOLE)]
 
     @property
     def fine(self) -> list[float]:
-        """Steps that are one."""
+        """The steps below its own, which are a change."""
         return self.steps[len(self.coarse) :]
 
     def values_in(self, options: Options) -> list[tuple[Knob, Value]]:

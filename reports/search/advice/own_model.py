@@ -110,7 +110,7 @@ class _Asked:
         return Opened(self.own, {q: bar / self.margin for q, bar in self.opened.bars.items()})
 
     def of(self, own: OwnModel) -> "_Asked":
-        """The same asked of another model."""
+        """Returns the same question about another model."""
         return replace(self, opened=replace(self.opened, own=own))
 
 

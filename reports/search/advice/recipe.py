@@ -26,7 +26,7 @@ class Recipe:
 
 
 def digits(error: float) -> float:
-    """In digits that no rounding decides."""
+    """Rounds a number to digits that no rounding error decides."""
     return float(f"{error:.3g}")
 
 
@@ -48,7 +48,7 @@ class Search:
     elsewhere: dict[Candidate, float] = field(default_factory=dict[Candidate, float])
 
     def worst(self, candidate: Candidate, runs: Runs | None = None) -> tuple[float, str]:
-        """The largest error over what is allowed, and whose; inf where the run came to nothing.
+        """Returns the largest error over what is allowed and its quantity; inf if the run failed.
 
         Whatever any run has told must be told: a setting may lose a quantity.
         """
@@ -58,12 +58,12 @@ class Search:
         return max(ratios, default=(inf, ""), key=lambda each: each[0])
 
     def passes(self, candidate: Candidate) -> bool:
-        """At this step alone."""
+        """Whether a candidate keeps all tolerances at its step."""
         here = self.worst(candidate)[0] <= 1 / self.margin
         return here and self.elsewhere.get(candidate, 0.0) <= 1.0
 
     def holds(self, recipe: Recipe) -> bool:
-        """At its step and at half of it."""
+        """Whether a candidate keeps all tolerances at its step and at half of it."""
         rungs = [recipe.candidate, recipe.choice.at(recipe.candidate.step / 2)]
         self.runs.need(rungs)
         return all(map(self.passes, rungs))
@@ -101,14 +101,14 @@ class Search:
 
 @dataclass(frozen=True)
 class Recipes:
-    """Which may be the same."""
+    """The recipe with the fewest changes and the cheapest, which may be the same."""
 
     fewest: Recipe
     cheapest: Recipe
 
 
 def recipes(search: Search) -> Recipes | None:
-    """Both, with the mildest numbers that do; None where nothing passes."""
+    """Returns both recipes, with the mildest numbers that pass; None where nothing does."""
     least = search.first(search.candidates.groups())
     if least is None:
         whole = search.first(search.candidates.whole_groups())
@@ -123,13 +123,13 @@ def recipes(search: Search) -> Recipes | None:
 
 
 def _changes(search: Search, recipe: Recipe) -> int:
-    """How many options a user writes, a smaller step among them."""
+    """Counts the options that a user writes, a smaller step among them."""
     finer = recipe.candidate.step < search.candidates.own * (1 - WHOLE)
     return len([*parts(recipe.choice.options)]) + finer
 
 
 def _cheapest(search: Search, least: Recipe) -> Recipe:
-    """Whatever it changes: what passes at the largest step at which it costs less."""
+    """Returns the cheapest choice that passes, at its largest step, whatever it changes."""
     listed, dear = search.candidates, search.cost(least.candidate) * (1 - WHOLE)
     choices = [choice for size in range(MOST + 1) for choice in listed.choices(size)]
     ladders: list[Ladder[Choice]] = []
@@ -143,7 +143,7 @@ def _cheapest(search: Search, least: Recipe) -> Recipe:
 
 
 def _weakest(search: Search, recipe: Recipe) -> Recipe:
-    """With each number as far from extremes as does: knobs have their values in that order."""
+    """Replaces each number by the weakest that passes: knobs list their values in that order."""
     for knob, value in search.candidates.values_in(recipe.choice.options):
         for weaker in takewhile(lambda v, value=value: v is not value, knob.values):
             options = merged(recipe.choice.options, weaker.options)
@@ -156,7 +156,7 @@ def _weakest(search: Search, recipe: Recipe) -> Recipe:
 
 
 def _without_unneeded(search: Search, recipe: Recipe) -> Recipe:
-    """Without what is not needed at its step, taken out one after the other."""
+    """Drops each change that is not needed at its step, one after the other."""
     for part in parts(recipe.choice.options):
         options = _without(recipe.choice.options, part)
         size = len([*parts(options)])
@@ -178,7 +178,7 @@ def _without(options: Mapping[str, Any], part: tuple[str, ...]) -> dict[str, Any
 
 
 def best(search: Search) -> tuple[Candidate, float, str] | None:
-    """The least bad of all runs, where nothing passes: candidate, worst ratio, quantity."""
+    """Returns the run nearest to passing: candidate, worst ratio, quantity."""
     finite = [each for each in _all_runs(search) if each[1] < inf]
     return min(finite, key=lambda each: (digits(each[1]), search.cost(each[0])), default=None)
 
@@ -197,5 +197,5 @@ def _all_runs(search: Search) -> list[tuple[Candidate, float, str]]:
 
 
 def rungs_of(search: Search, *choices: Choice) -> list[Candidate]:
-    """Nothing changed and each of the choices, at every step: what a front is drawn through."""
+    """Returns the candidates of a front: no change and each choice, at every step."""
     return [choice.at(step) for choice in (NOTHING, *choices) for step in search.candidates.steps]

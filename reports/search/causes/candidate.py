@@ -25,11 +25,11 @@ class Candidate:
 
     @property
     def options(self) -> Mapping[str, Any]:
-        """Without the step."""
+        """The options without the step."""
         return json.loads(self.text)
 
     def engine(self, name: str) -> Engine:
-        """The engine with them. Raises ValueError where it does not take them."""
+        """Returns the engine with these options. Raises ValueError where it does not take them."""
         return engines.make(name, TRIED, {**self.options, "step": self.step})
 
     def on(self, shapes: Options) -> "Candidate":

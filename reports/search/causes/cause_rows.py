@@ -38,7 +38,7 @@ def _cause(row: Comparison, cure: Cure, cost: Cost, elsewhere: bool) -> Cause:
 
 
 def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
-    """Where only a law or driver of ours agrees."""
+    """Returns the causes of a row with which only a law or driver of ours agrees."""
     return [
         replace(without(row, OURS[other.realised]), step=other.step, error_after=other.error)
         for other in agreeing
@@ -59,7 +59,7 @@ def by_ladder(
 
 
 def without(row: Comparison, words: str) -> Cause:
-    """Nothing is known but that it is off."""
+    """Returns the cause of a row of which nothing is known but that it is off."""
     return Cause(*key_of(row), row.error, row.allowed, words, *("", None, None, None, ""))
 
 

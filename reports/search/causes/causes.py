@@ -40,7 +40,7 @@ def causes(
     search: bool,
     known: Known | None = None,
 ) -> list[Cause]:
-    """For every row above its tolerance: what brings it within; search: whether runs are made.
+    """Returns what brings each row above its tolerance within; search: whether runs are made.
 
     known: what is carried over where it stands on the same.
     """
@@ -79,7 +79,7 @@ def _own(pair: Pair) -> Options:
 
 
 def _word(pair: Pair, results: Results) -> str:
-    """Engine version and key of a search; empty where it has none."""
+    """Returns the engine's version and the key of a search; empty where it has none."""
     word = results.keys.search(pair.case, pair.engine)
     return f"{pair.engine.version} {word[:LETTERS]}" if word else ""
 
@@ -90,7 +90,7 @@ def _carried(
     words: Mapping[Where, str],
     known: Known,
 ) -> dict[Key, list[Cause]]:
-    """For each row that is as the known causes found it: all of its causes.
+    """Returns the known causes of each row that is still as they found it.
 
     None of a case in an engine of which some verdict is another one than it was.
     """
@@ -156,7 +156,7 @@ def _cost(pair: Pair, base: Candidate) -> Cost:
 
 
 def _referenced(pairs: Mapping[Where, Pair], results: Results) -> dict[Where, Pair]:
-    """With the samples that the engine's own step meets; their references are in the store."""
+    """Returns the pairs with samples that the engine's step meets, whose references are stored."""
     sampled = {where: at_own_samples(pair, results) for where, pair in pairs.items()}
     others = {p.key: p.case for where, p in sampled.items() if p.case is not pairs[where].case}
     answers = results.of("references", solved, others) if others else {}
@@ -173,7 +173,7 @@ FINEST = 8  # times, of the tuned setting, which has nothing else to be changed
 
 
 def between(pair: Pair) -> Field:
-    """From the row's own setting to the tuned one; from the tuned one to smaller steps."""
+    """Returns the changes from a setting to the tuned one; from the tuned to smaller steps."""
     case, engine = pair.case, pair.engine
     assert isinstance(engine, Tunable)
     step, start = judged_step(case, engine), first(pair.reference())

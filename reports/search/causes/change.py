@@ -47,7 +47,7 @@ class Field:
     presets: Sequence[Change] = ()
 
     def candidate(self, changes: Iterable[Change]) -> Candidate:
-        """With these changes, at the base's step."""
+        """Returns the candidate with these changes, at the base's step."""
         options = merged(self.base.options, *(change.options for change in changes))
         return Candidate.of(options, self.base.step)
 
@@ -59,7 +59,7 @@ class Field:
         return [candidate.at(step) for step in (self.alone if changes == (STEP,) else self.steps)]
 
     def along(self, changes: Changes) -> tuple[str, dict[float, Candidate]]:
-        """The one number of these, and candidates by its values, in the order of a cure."""
+        """Returns the one number that changes set, and candidates by its values, in order."""
         if STEP in changes:
             return "h", {candidate.step: candidate for candidate in self.ladder(changes)}
         numbers = [change for change in changes if change.along]
@@ -102,7 +102,7 @@ def presets(knobs: Iterable[Knob]) -> list[Change]:
 
 
 def rest(knobs: Iterable[Knob], recipe: Options) -> list[Change]:
-    """A change to what of a recipe is no knob: how exactly to solve, say; none for nothing."""
+    """Returns a change to the options that are no knobs, as solver accuracy; none for nothing."""
     named = merged(*(knob.tuned.options for knob in knobs if knob.tuned))
     others = {name: value for name, value in recipe.items() if name not in named}
     words = " + ".join(f"{name} {short_value(value)}" for name, value in others.items())
@@ -110,7 +110,7 @@ def rest(knobs: Iterable[Knob], recipe: Options) -> list[Change]:
 
 
 def _numbers(options: Options) -> Iterator[tuple[str, float]]:
-    """Options that are one number by their names; of those in groups and lists none is one."""
+    """Returns the options that are one number, by name, outside of groups and lists."""
     for name, value in options.items():
         if isinstance(value, int | float) and not isinstance(value, bool):
             yield name, float(value)

@@ -34,23 +34,23 @@ class Run:
 
     @property
     def name(self) -> str:
-        """For progress."""
+        """The name that progress shows."""
         return f"{self.pair.case.name} in {self.pair.engine.name}"
 
     @property
     def engine(self) -> Engine:
-        """The engine, whose options are others."""
+        """The engine with the candidate's options."""
         return self.pair.engine
 
     @property
     def limit(self) -> float:
-        """How long the engine may take [s], and before it a reference."""
+        """The time [s] that the engine and, before it, a reference may take."""
         steps = self.pair.case.duration / self.candidate.step
         return self.pair.limit + limit(STARTS * steps * pace(self.pair.case, self.pair.engine))
 
 
 def of(errors: Errors, name: str, *, elsewhere: bool = False) -> float:
-    """One of them; inf where the run diverged, was refused, or has no such number."""
+    """Returns the error of a quantity; inf where the run diverged, was refused, or lacks it."""
     return errors[name][elsewhere] if name in errors else inf
 
 

@@ -56,7 +56,7 @@ MOST = 3  # cures in a sentence: causes.csv has them all
 def with_causes(
     rows: Sequence[Comparison], causes: Sequence[Cause], moments: Moments
 ) -> list[Comparison]:
-    """The rows, of which each that has causes says them."""
+    """Returns the rows with their causes in words."""
     by_row: dict[Key, list[Cause]] = {}
     for cause in causes:
         by_row.setdefault(key_of(cause), []).append(cause)
@@ -69,7 +69,7 @@ def with_causes(
 
 
 def _with(row: Comparison, causes: Sequence[Cause], moment: str) -> Comparison:
-    """The row with its causes in words; what its ladder says stays where nothing is better."""
+    """Returns the row with its causes in words; its ladder's words stay where none is better."""
     first = causes[0].cure
     if first == UNSEARCHED:
         return row

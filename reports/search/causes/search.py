@@ -66,7 +66,7 @@ class Ladder(Generic[T]):
 
     @property
     def first(self) -> Candidate:
-        """The finest that may be taken: most of what cannot pass is seen there."""
+        """The finest rung that may be taken: most changes that cannot pass fail there."""
         return self.rungs[-2 if self.confirmed else -1]
 
 
@@ -118,7 +118,7 @@ def _key_of(runs: Runs, candidate: Candidate, results: Results) -> str:
 
 
 def _counted(results: Results, done: int, *, remaining: int) -> Results:
-    """Progress over all rounds: a search that is not at its end asks for one more run at least."""
+    """Counts progress over all rounds: each search not at its end needs one more run at least."""
 
     def progress(
         what: str, now: int, of: int, last: str = "", part: float = 0.0, /
@@ -138,7 +138,7 @@ def at_own_samples(pair: Pair, results: Results) -> Pair:
 
 
 def lost(pairs: Mapping[Key, Pair], results: Results) -> dict[Key, str]:
-    """By their keys the pairs whose engine cannot, and why: tried in other processes.
+    """Returns by key why a pair's engine cannot be searched; tried in other processes.
 
     What passes is asked once more in this one, where the search is.
     """

@@ -28,14 +28,14 @@ class Rows:
     ladders: Sequence[Rungs] = ()
 
     def off(self) -> Iterator[Comparison]:
-        """The engines' own that are above their tolerance, whatever the verdict is called."""
+        """Yields the native rows above their tolerance, whatever the verdict is called."""
         for row in self.comparisons:
             over = row.ratio is None or not row.ratio <= 1.0
             if row.verdict in OFF and row.realised == "native" and over:
                 yield row
 
     def ours(self, row: Comparison) -> list[Comparison]:
-        """Rows that agree with a law or driver of ours, if only such do: its model is another.
+        """Returns the rows of a law or driver of ours that agree, if only such do.
 
         Nothing says so where the engine's own ladder, with the row's setting or the tuned one, ends
         within or blames the step, nor where that of the tuned one is too short to blame anything.

@@ -47,7 +47,7 @@ def lines(case: ModelCase, samples: Sequence[dict[str, Any]], module: Any = moti
         Measured(Release("mujoco", f"{k}.0"), None, motions={case.name: each})
         for k, each in enumerate(samples, 1)
     ]
-    return [*module.told([case], releases)]
+    return [*module.motion_lines([case], releases)]
 
 
 @pytest.mark.mutant("the farther release is called the nearer one")
