@@ -45,7 +45,7 @@ class Pair:
 
     @property
     def name(self) -> str:
-        """For whoever waits for it."""
+        """The name that progress shows."""
         return f"{self.case.name} in {self.engine.name}.{self.engine.setting}"
 
     @property
@@ -100,7 +100,7 @@ class Climb:
 
     @property
     def name(self) -> str:
-        """For whoever waits for it."""
+        """The name that progress shows."""
         return self.unit.pair.name
 
     @property
