@@ -254,7 +254,7 @@ LIGHTER = (
     lambda self, t, q, v: T(self, t, q, v) + 0.5e-9 * self.masses["b"].J * v[2] * v[2],
 )  # fmt: skip
 LOOSER = (Multibody, "U", lambda self, t, q: U(self, t, q) + 1e-8 * np.sum(q))
-ONE = (lagrange, "_even", lambda M, energy, most: np.ones(len(M)))
+ONE = (lagrange, "_equal_energy_rates", lambda M, energy, most: np.ones(len(M)))
 # By what is planted: the scene, what is replaced, and the rows of which at least one breaks.
 PLANTED: dict[str, tuple[str, tuple[Any, str, Any], set[str]]] = {
     # 1e-8 N and N m more along all coordinates: accelerations show it where nothing has power.
