@@ -85,7 +85,7 @@ PREMISES = {
     "states/answer.py::_written": (
         "states/test_answer.py::test_a_system_of_other_coordinates_is_refused"
     ),
-    "states/answer.py::_constant": (
+    "states/answer.py::_constant_mistakes": (
         "states/test_answer.py::test_what_is_the_same_in_every_state_is_no_claim"
     ),
 }

@@ -345,7 +345,7 @@ allow: {a.x: 1.0e-6, a.y: 1.0e-3}
     bold = claimed(tmp_path, text.replace("a.x: 1.0e-6", "a.x: 1.0e-12"))
     with pytest.raises(CaseError, match=r"give at least 4e-07\n"):
         solve(bold)
-    monkeypatch.setattr(answer, "_rounded", lambda case: {})
+    monkeypatch.setattr(answer, "_rounding_answers", lambda case: {})
     assert error(bold, "a.x") < 1e-2 * off
 
 
