@@ -18,7 +18,7 @@ from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .certificate.agreement import Check, gravest, worst
 from .certificate.errors import ERROR
-from .certificate.reaction_check import AGREE, condition, lost
+from .certificate.reaction_check import AGREE, condition, rounding_error
 from .mechanism.kinematics.coordinates import Coordinates
 from .mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from .mechanism.modes.mode import Multibody
@@ -59,14 +59,14 @@ def _part(case: Case, scene: Scene, corners: tuple[float, ...]) -> Case:
     )
 
 
-def together(case: Case, found: Sequence[Island]) -> tuple[Trajectory, tuple[Check, ...]]:
+def together(case: Case, islands: Sequence[Island]) -> tuple[Trajectory, tuple[Check, ...]]:
     """The motion of all, and of each check the gravest; errors of sums are sums of errors."""
-    motion = joined(case, found, case.times)
+    motion = joined(case, islands, case.times)
     checks: dict[str, list[Check]] = {}
-    for check in (check for island in found for check in island.checks):
+    for check in (check for island in islands for check in island.checks):
         checks.setdefault(check.name, []).append(check)
-    bases = [island.base for island in found]
-    return motion, (*(_of_all(each) for each in checks.values()), _alone(case, motion, bases))
+    bases = [island.base for island in islands]
+    return motion, (*(_of_all(each) for each in checks.values()), _isolation(case, motion, bases))
 
 
 def joined(case: Case, islands: Sequence[Island], times: Array) -> Trajectory:
@@ -94,7 +94,7 @@ def _of_all(checks: Sequence[Check]) -> Check:
     )
 
 
-def _alone(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Check:
+def _isolation(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Check:
     """The accelerations of the whole scene, in which an island feels nothing of the others.
 
     At any rates, because a damper between two islands at rest does nothing.
@@ -111,7 +111,7 @@ def _alone(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Chec
             own, place = _accelerations(base, t, poses), base.place(poses)
             size = max(base.terms(t, *place)[0], *(worst(np.abs(a)) for a in own.values())) or 1.0
             apart += [worst(np.abs(felt[name] - a)) / size for name, a in own.items()]
-            bound = max(bound, lost(condition(base.f_a(t, place[0]), base)))
+            bound = max(bound, rounding_error(condition(base.f_a(t, place[0]), base)))
     return Check("each island by itself", worst(apart), bound)
 
 

@@ -316,7 +316,7 @@ allow: {q.my: 1.0e-3}
     assert error(case, "q.my") > 1e-18
     with pytest.raises(CaseError, match=ASKS):
         solve(replace(case, allow={"q.my": 1e-30}))
-    monkeypatch.setattr(errors, "_beside", lambda case, motion, name: iter(()))
+    monkeypatch.setattr(errors, "_peers", lambda case, motion, name: iter(()))
     assert error(case, "q.my") < 1e-20
 
 
