@@ -516,5 +516,5 @@ events: {strikes: {knock.gap: falls to zero}}
     mistake = refused(case)
     assert mistake.where == "allow.rail.work"
     assert "something strikes at 0.34 s" in mistake.what
-    monkeypatch.setattr(assumptions, "_struck", lambda *_: [])
+    monkeypatch.setattr(assumptions, "_blow_work", lambda *_: [])
     assert solve(case).trajectory.times[-1] == 1.0
