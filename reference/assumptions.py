@@ -73,14 +73,14 @@ def _otherwise(
     columns = range(frame.width)
     least = {i: max(least, *size[kind]) for kind, least in kinds for i in columns[kind]}
     for row, name in enumerate(names):
-        apart = [abs(a[row, i] - b[row, i]) for i in columns]
-        differ = [i for i, d in enumerate(apart) if not d <= START * least[i]]
+        errors = [abs(a[row, i] - b[row, i]) for i in columns]
+        differ = [i for i, d in enumerate(errors) if not d <= START * least[i]]
         given = (
             [i for i in differ if fields[i] in case.initial[name].given]
             if name in case.initial
             else []
         )
-        for i in given or sorted(differ, key=lambda i: -apart[i])[:1]:
+        for i in given or sorted(differ, key=lambda i: -errors[i])[:1]:
             what = (
                 f"{case.system} starts {name} with {fields[i]} = {a[row, i]:.6g} "
                 f"{UNITS[fields[i]]}, the "

@@ -100,19 +100,19 @@ def _isolation(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> 
     At any rates, because a damper between two islands at rest does nothing.
     """
     random, whole = np.random.default_rng(SEED), _whole(case, _state(motion, 0))
-    apart, bound = [0.0], AGREE
+    errors, bound = [0.0], AGREE
     for i in np.linspace(0, len(motion.times) - 1, ASKED).astype(int).tolist():
         t, poses = float(motion.times[i]), _state(motion, i)
         q, v = whole.place(poses)
         rates = (worst(np.abs(v)) or 1.0) * random.uniform(-1.0, 1.0, len(v))
         poses |= whole.poses(t, q, rates)
-        felt = _accelerations(whole, t, poses)
+        whole_rates = _accelerations(whole, t, poses)
         for base in islands:
             own, place = _accelerations(base, t, poses), base.place(poses)
             size = max(base.terms(t, *place)[0], *(worst(np.abs(a)) for a in own.values())) or 1.0
-            apart += [worst(np.abs(felt[name] - a)) / size for name, a in own.items()]
+            errors += [worst(np.abs(whole_rates[name] - a)) / size for name, a in own.items()]
             bound = max(bound, rounding_error(condition(base.f_a(t, place[0]), base)))
-    return Check("each island by itself", worst(apart), bound)
+    return Check("each island by itself", worst(errors), bound)
 
 
 def _state(motion: Trajectory, i: int) -> dict[str, Pose]:

@@ -120,9 +120,9 @@ def _rests(change: Change) -> bool:
     return word == "stops" and not goes_on
 
 
-def _bound(apart: float) -> float:
-    """Bound on the difference of another answer: the next power of ten above LOOSER · apart."""
-    return 10.0 ** math.ceil(math.log10(LOOSER * apart)) if 0.0 < apart < math.inf else 0.0
+def _bound(error: float) -> float:
+    """Bound on the difference of another answer: the next power of ten above LOOSER · error."""
+    return 10.0 ** math.ceil(math.log10(LOOSER * error)) if 0.0 < error < math.inf else 0.0
 
 
 def _own_error(followed: Followed) -> float:
@@ -176,8 +176,8 @@ def _events(
     close = instant(until)
     for name, other in runs.items():
         if followed.changes or other.changes:
-            off, bound = _events_apart(followed, other), max(OTHER_EVENTS * close, late)
-            yield Check(name, off, bound, measured=True)
+            error, bound = _events_apart(followed, other), max(OTHER_EVENTS * close, late)
+            yield Check(name, error, bound, measured=True)
     events = system.closed_events(until)
     if events is not None and (events or followed.events):
         bound = max(OWN_EVENTS * close, late)

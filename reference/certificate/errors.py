@@ -45,14 +45,14 @@ def errors(
             error += summed.get(name, 0.0)
         elif name in times:
             event = case.events[times[name].part]
-            off = late + _bound(case, motion, others, times[name].part)
-            off += _pile_limit(motion.endless) if event.rule == "stays zero" else 0.0
-            error, unit = max(EPS * float(motion.times[-1]), off), times[name].unit
+            shift = late + _bound(case, motion, others, times[name].part)
+            shift += _pile_limit(motion.endless) if event.rule == "stays zero" else 0.0
+            error, unit = max(EPS * float(motion.times[-1]), shift), times[name].unit
         elif at is not None:  # known as everywhere in the motion, but the event is late
             own = observe(case.scene, motion, at.quantity)
             fastest = worst(np.abs(np.diff(own))) / case.interval
-            off = late + _bound(case, motion, others, at.event)
-            error = _error(case, motion, others, at.quantity) + fastest * off
+            shift = late + _bound(case, motion, others, at.event)
+            error = _error(case, motion, others, at.quantity) + fastest * shift
             unit = known[at.quantity].unit
         else:
             continue  # a count: the changes of mode are compared by name and number

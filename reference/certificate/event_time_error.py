@@ -38,7 +38,7 @@ LINE = range(DIFFERENCED)
 def time_bound(system: System, followed: Followed) -> float:
     """Error [s] of the times of a motion's events, by their guards: the errors add up."""
     peak = np.max(np.abs([y for *_, y in followed.march]), axis=0)
-    known, off = TOLERANCE * sizes(peak, TOLERANCE), 0.0
+    known, error = TOLERANCE * sizes(peak, TOLERANCE), 0.0
     phases: list[list[Kept]] = [[] for _ in followed.phases]
     for row in followed.march:
         phases[row[1]].append(row)
@@ -46,8 +46,8 @@ def time_bound(system: System, followed: Followed) -> float:
     for change, rows in zip(followed.changes, phases, strict=False):
         added = np.hypot(added, _step_rounding(system.modes[change.mode_before], rows))
         if change.guard is not None:
-            off += _lead_time(system, change, change.guard, rows, known + added)
-    return off
+            error += _lead_time(system, change, change.guard, rows, known + added)
+    return error
 
 
 def _step_rounding(mode: Mode, rows: Sequence[Kept]) -> Array:
@@ -111,13 +111,13 @@ def lateness(scene: Scene, record: Trajectory, event: Event, room: float) -> flo
     room = max(room, TOLERANCE * worst(np.abs(u)))
     small = still(scene, record, event.quantity)
     corners = scene.corners()
-    off = 0.0
+    error = 0.0
     for rows in lasting(record):
         times = record.times[rows]
         for t, curve in passing(times, u[rows], small, corners):
             lasted = t - float(times[0])
-            off = max(off, _time_below(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
-    return off
+            error = max(error, _time_below(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
+    return error
 
 
 def _time_below(g: Callable[[float], float], room: float, t: float, most: float) -> float:

@@ -86,8 +86,8 @@ def _drives(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
         part, _, rate = quantity.rpartition(".")
         name = f"{part}.{PLACE_OF.get(rate, rate.removesuffix('_dot'))}"
         place, skew = observe(case.scene, motion, name), _skewness(case, part)
-        gone = integral(law, motion.times)[:, 0]
-        yield size.difference(known[name].unit, place - place[0], gone) / skew
+        shift = integral(law, motion.times)[:, 0]
+        yield size.difference(known[name].unit, place - place[0], shift) / skew
         own = observe(case.scene, motion, quantity)
         yield size.difference(known[quantity].unit, own, law.at(motion.times)[:, 0]) / skew
 
@@ -184,8 +184,8 @@ def _in_plane(joint: Joint, motion: Motion) -> Array:
     bodies = [motion.bodies[at.body] for at in joint.refers() if at.body in motion.bodies]
     if joint.turns or not all(body.turns for body in bodies):
         return np.zeros_like(motion.trajectory.times)
-    off: Array = np.remainder(joint.turn(motion)[0] - joint.angle + np.pi, 2 * np.pi) - np.pi
-    return off
+    angle: Array = np.remainder(joint.turn(motion)[0] - joint.angle + np.pi, 2 * np.pi) - np.pi
+    return angle
 
 
 def _in_space(joint: Joint, motion: Motion) -> Array:
@@ -267,8 +267,8 @@ def _of_body(case: Case, name: str, start: Placement, seen: Motion, large: Size)
         yield large.difference("m", math.hypot(x, y), length)
         there = seen.point(Anchor(name, "center"))[0, :2]
         rounded = EPS * float(np.max(np.abs(there))) / length  # rad, of a place far from the origin
-        off = abs(math.remainder(math.atan2(y, x) - direction, math.tau))
-        yield 0.0 if off <= rounded else off - rounded  # and of NaN it is NaN
+        angle = abs(math.remainder(math.atan2(y, x) - direction, math.tau))
+        yield 0.0 if angle <= rounded else angle - rounded  # and of NaN it is NaN
 
 
 def _standing_errors(case: Case, at: Anchor, seen: Motion, large: Size) -> Iterator[float]:

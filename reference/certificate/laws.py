@@ -133,7 +133,7 @@ class Scale:
 
 
 def laws(
-    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory, apart: float
+    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory, error: float
 ) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each.
 
@@ -142,7 +142,7 @@ def laws(
     """
     checks: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
-    drift = max(DRIFT * float(np.finfo(float).eps) * followed.steps, apart)
+    drift = max(DRIFT * float(np.finfo(float).eps) * followed.steps, error)
     scale = Scale(generated.base, _speeds(generated.base, marched), float(np.ptp(times)), drift)
     for name in dict.fromkeys(followed.modes):
         mine, mode = np.array(followed.modes) == name, answer.system.modes[name]
@@ -214,20 +214,20 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     size, power = worst(sizes) or 1.0, worst(powers) or 1.0
     by = "Lagrange with multipliers (2.60)" if bound else "Lagrange (2.44)"
     rounding = max(LAW, OF_MULTIPLIERS * _rounding(mode, 1.0))
-    apart = worst(derived) / size
-    if bound and apart > rounding:
+    error = worst(derived) / size
+    if bound and error > rounding:
         at = int(np.argmax(derived))
         rounding = max(rounding, _held_together(mode, float(times[at]), *mode.parted(y[at])))
-    yield Check(f"accelerations by {by}", apart, rounding)
+    yield Check(f"accelerations by {by}", error, rounding)
     if by_lagrangian:
         yield Check("Lagrangian (2.51), (2.52)", worst(by_lagrangian) / size, LAW)
     beside = min(_drift_bound(worst(drifted) / power), max(LAW, scale.drift))
     yield Check("power balance (2.51)", worst(balances) / power, beside)
     if written:
         least = SMALL * worst(balance.largest for balance in unbalanced)
-        apart = worst(balance.share(least) for balance in unbalanced)
-        yield Check("Newton-Euler balance (2.23), (2.27)", apart, LAW)
-    known = [apart for apart in forces if apart is not None]
+        error = worst(balance.share(least) for balance in unbalanced)
+        yield Check("Newton-Euler balance (2.23), (2.27)", error, LAW)
+    known = [error for error in forces if error is not None]
     if known:  # a system need not know its reactions
         yield Check("reactions by Newton-Euler", worst(known), LAW)
 
@@ -251,8 +251,8 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
         for name, accelerations in ELIMINATED.items():
             if (other := accelerations(mode, t, q, v)) is not None:
                 errors.setdefault(name, []).append(worst(np.abs(other - a)) / size)
-    for name, apart in errors.items():
-        yield Check(f"accelerations by {name}", worst(apart), bound)
+    for name, values in errors.items():
+        yield Check(f"accelerations by {name}", worst(values), bound)
 
 
 def _drift_bound(drift: float) -> float:
@@ -292,8 +292,8 @@ def _other_forces(
     if not cut_free.keys() & written.keys():
         return None
     size = worst(abs(force) for force in cut_free.values()) or 1.0
-    apart = worst(abs(cut_free[name] - written[name]) for name in written if name in cut_free)
-    return unexplained(apart / size, size, (reactions(mode), t, q, v))
+    error = worst(abs(cut_free[name] - written[name]) for name in written if name in cut_free)
+    return unexplained(error / size, size, (reactions(mode), t, q, v))
 
 
 # Random states beside a motion, such as the mode allows: what the motion itself never shows.

@@ -184,10 +184,10 @@ def _free_body_errors(scene: Scene, answer: Answer, motion: Trajectory) -> Itera
             continue
         parts = [acting, *(_touch(c, seen, name) for c in touching if name in _bodies(c))]
         force, turn = sum(part[:, :2] for part in parts), sum(part[:, 2] for part in parts)
-        wanted = np.stack([body.mass * moved[f"{name}.{field}"] for field in ("ax", "ay")], axis=1)
+        change = np.stack([body.mass * moved[f"{name}.{field}"] for field in ("ax", "ay")], axis=1)
         largest = max(worst(np.abs(part[:, :2]).ravel()) for part in parts)
-        largest = max(largest, worst(np.abs(wanted).ravel())) or 1.0
-        yield worst(np.abs(force - wanted).ravel()) / largest
+        largest = max(largest, worst(np.abs(change).ravel())) or 1.0
+        yield worst(np.abs(force - change).ravel()) / largest
         if body.turns:
             couple = body.moment * moved[f"{name}.alpha"]
             most = max(worst(part[:, 3]) for part in parts)  # it may be nothing of it
@@ -299,11 +299,11 @@ class _Rubbing:
             return 0.0
         if any(not {*_forces(part)} <= before.trajectory.reactions.keys() for part in self.parts):
             return 0.0
-        off = worst(self.errors(before, size))
+        error = worst(self.errors(before, size))
         _, force, low, high, _ = self.bounds(before)
         if change.name in {f"{part.name} slips" for part in self.parts}:
-            off = max(off, float(np.minimum(force - low, high - force)[0]))
-        return off / max(self.largest, worst(np.abs(force)))
+            error = max(error, float(np.minimum(force - low, high - force)[0]))
+        return error / max(self.largest, worst(np.abs(force)))
 
 
 def _forces(element: Contact | Pair | Joint) -> list[str]:
@@ -388,22 +388,22 @@ class _Blow:
         before, after = self.before.trajectory.states, self.after.trajectory.states
         if all(np.array_equal(rows, after[name]) for name, rows in before.items()):
             return
-        apart = [abs(side.gap(self.before)[0]) / self.size.of(side.unit) for side in every]
-        if min(apart) > APART and not self.ends:
+        gaps = [abs(side.gap(self.before)[0]) / self.size.of(side.unit) for side in every]
+        if min(gaps) > APART and not self.ends:
             yield self._jump()
         near = [
             side
-            for side, off in zip(every, apart, strict=True)
-            if off <= NEAR and side.touchable(self.before)[0]
+            for side, gap in zip(every, gaps, strict=True)
+            if gap <= NEAR and side.touchable(self.before)[0]
         ]
         both = self.before, self.after
         rates = {side.name: [float(side.rate(at)[0]) for at in both] for side in near}
         struck = [side for side in near if rates[side.name][0] < -BLOWS * self._speed(side)]
         for side in near:
             closes, opens = rates[side.name]
-            wanted = -side.back * closes if side in struck else 0.0
-            least = 0.0 if self.ends or len(struck) > 1 else wanted
-            most = wanted if struck == [side] else np.inf
+            rebound = -side.back * closes if side in struck else 0.0
+            least = 0.0 if self.ends or len(struck) > 1 else rebound
+            most = rebound if struck == [side] else np.inf
             yield max(0.0, least - opens, opens - most) / self._speed(side)
         if len(near) == 1 == len(struck):
             yield from self._impulse(near[0])

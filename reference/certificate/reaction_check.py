@@ -39,18 +39,18 @@ def reaction_checks(
         place = generated.base.place(mode.poses(t, q, v))
         a = _accelerations(mode, generated.base, t, q, v)
         size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0
-        apart = worst(np.abs(other.accelerations(t, *place) - a)) / size
-        moved.append(unexplained(apart, size, (other.accelerations, t, *place)))
+        error = worst(np.abs(other.accelerations(t, *place) - a)) / size
+        moved.append(unexplained(error, size, (other.accelerations, t, *place)))
         rows = other.f_a(t, place[0])
         uneven = max(uneven, condition(rows, generated.base))
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
         force = worst(map(abs, theirs.values())) or 1.0
-        apart = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
-        if apart > AGREE:
+        error = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
+        if error > AGREE:
             most = max(force, _borne(rows, generated.base, t, *place))
-            apart, force = apart * force / most, most
-        apart = unexplained(apart, force, (reactions(other), t, *place), (reactions(mode), t, q, v))
-        held += [apart] if own.keys() & theirs.keys() else []
+            error, force = error * force / most, most
+        error = unexplained(error, force, (reactions(other), t, *place), (reactions(mode), t, q, v))
+        held += [error] if own.keys() & theirs.keys() else []
     least = max(AGREE, rounding_error(uneven))
     yield Check("generated accelerations", worst(moved), least)
     if held:
@@ -86,15 +86,15 @@ Follows = tuple[Callable[..., Array], float, Array, Array]
 """What follows from a state, and the state: t [s], q and v."""
 
 
-def unexplained(apart: float, size: float, *follows: Follows) -> float:
+def unexplained(error: float, size: float, *follows: Follows) -> float:
     """The difference, or 0 where the states' own rounding may be all of it, in powers of ten.
 
     Of two answers each has a state of its own: beside a dead centre that of one tells it badly.
     """
-    if not apart > AGREE:
-        return apart
+    if not error > AGREE:
+        return error
     steep = sum(_sensitivity(*quantity) for quantity in follows)
-    return 0.0 if apart <= _power(steep / size) else apart
+    return 0.0 if error <= _power(steep / size) else error
 
 
 def reactions(mode: Mode) -> Callable[..., Array]:

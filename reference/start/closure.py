@@ -67,20 +67,20 @@ class Rows(NamedTuple):
             np.vstack([self.rows, more.rows]), np.append(self.g, more.g), self.names + more.names
         )
 
-    def off(self, v: Array) -> Array:
+    def residuals(self, v: Array) -> Array:
         """Returns the residuals (r,) that v leaves."""
         return self.rows @ v - self.g
 
     def violated(self, v: Array) -> bool:
         """Whether v leaves more than rounding."""
         scale = max(product_size(self.rows, v), np.max(np.abs(self.g), initial=0.0))
-        return bool(np.max(np.abs(self.off(v)), initial=0.0) > CLOSED * scale)
+        return bool(np.max(np.abs(self.residuals(v)), initial=0.0) > CLOSED * scale)
 
     def solved(self, v: Array, free: Sequence[int]) -> Array:
         """v with the smallest change of its free columns; once more of what rounding has left."""
         v = v.copy()
         for _ in range(2):
-            v[free] -= least(self.rows[:, free], self.off(v))
+            v[free] -= least(self.rows[:, free], self.residuals(v))
         return v
 
 
@@ -269,7 +269,7 @@ class Closure:
 
     # How far a start is from what is near, and what it has instead.
 
-    def off(self, q: Array, *, turns: bool = False) -> dict[str, float]:
+    def near_errors(self, q: Array, *, turns: bool = False) -> dict[str, float]:
         """How far q is from all that `near` says, by name, in rad or sizes.
 
         turns: whether whole ones count, which what is given elsewhere may hold.
@@ -295,7 +295,7 @@ class Closure:
 
     def distance(self, q: Array) -> float:
         """How far q is from the worst of what `near` says, in rad or sizes; 0 without any."""
-        return max(self.off(q).values(), default=0.0)
+        return max(self.near_errors(q).values(), default=0.0)
 
     def shown(self, q: Array, name: str) -> str:
         """The value that q has of a coordinate, or of a point, as a file has it."""

@@ -212,9 +212,9 @@ class PlanarClosure(Closure):
         """Raises CaseError for a joint's angle that is whole turns from that of its bodies."""
         for name, placement in self.case.initial.items():
             for c in self.placed(name, placement, q):
-                off = c.value - placement.given[c.freedom.name]
-                if c.freedom.kind == "turn" and abs(off) > math.pi:
-                    raise messages.another_turn(self.case, name, off)
+                turn = c.value - placement.given[c.freedom.name]
+                if c.freedom.kind == "turn" and abs(turn) > math.pi:
+                    raise messages.another_turn(self.case, name, turn)
 
     # In which words.
 

@@ -43,7 +43,7 @@ def positions(closure: EitherClosure) -> Array:
     _determined(closure, ways[0])
     if len(ways) > 1:
         raise _several_ways(closure, ways)
-    if max(closure.off(ways[0], turns=True).values(), default=0.0) > FAR:
+    if max(closure.near_errors(ways[0], turns=True).values(), default=0.0) > FAR:
         raise _none_near(closure, ways[0], candidates)
     closure.refuse_turns(ways[0])
     return ways[0]
@@ -145,7 +145,7 @@ def _several_ways(closure: EitherClosure, ways: list[Array]) -> CaseError:
 
 def _none_near(closure: EitherClosure, way: Array, candidates: list[Array]) -> CaseError:
     """No way is where `near` says; told by what is farthest from it, and from the nearest on."""
-    off = closure.off(way, turns=True)
-    name = max(off, key=off.__getitem__)
+    errors = closure.near_errors(way, turns=True)
+    name = max(errors, key=errors.__getitem__)
     nearest_first = sorted(candidates, key=closure.distance)
     return messages.none_near(closure.case, name, [closure.shown(q, name) for q in nearest_first])

@@ -48,7 +48,7 @@ def _of_one(closure: Closure, held: Rows, resting: Rows, v: Array, free: list[in
     if every.violated(solution):
         alone = held.solved(v, free)
         if held.violated(alone):
-            owner = held.names[int(np.argmax(np.abs(held.off(alone))))]
+            owner = held.names[int(np.argmax(np.abs(held.residuals(alone))))]
             stands = owner in closure.standing
             raise (messages.moves if stands else messages.rates_violate)(closure.case, owner)
         raise messages.missing(closure.case, rank(every.rows[:, free]) - known, at_rest.names)

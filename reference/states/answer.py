@@ -213,11 +213,11 @@ def _chain_checks(
     yield Check("joints hold (2.10), (2.15)", unheld(mode, case.scene, rows(case, mode)), LAW)
     read = misread(case.scene, built, case.states.drawn(case.scene))
     yield Check("coordinates read back", read, LAW)
-    apart = (
+    error = (
         relative(built.reactions[effort], worked.reactions[effort], least=size)
         for _, effort in efforts(case.scene)
     )
-    yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(apart), LAW)
+    yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(error), LAW)
 
 
 def _constant_mistakes(case: Case, motion: Trajectory) -> Iterator[Mistake]:
@@ -262,7 +262,7 @@ def misread(scene: Scene, trajectory: Trajectory, drawn: dict[str, Array]) -> fl
         if joint.turns
     }
     motion = Motion(scene.bodies, scene.points, replace(trajectory, near=near))
-    apart: list[float] = []
+    errors: list[float] = []
     places = [states[:, scene.frame.place] for states in trajectory.states.values()]
     size = max(_arms(scene), worst(np.abs(x).max() for x in places))  # of which shifts are left
     for joint in scene.joints.values():
@@ -271,12 +271,12 @@ def misread(scene: Scene, trajectory: Trajectory, drawn: dict[str, Array]) -> fl
             place, rate, _ = drawn[f"{joint.name}.{freedom.name}"].T
             if freedom.kind == "turn" and len(joint.turns) == THREE:
                 continue
-            apart.append(relative(rate, rates[:, k], least=1.0))
-            off, least = place - read[:, k], size
+            errors.append(relative(rate, rates[:, k], least=1.0))
+            error, least = place - read[:, k], size
             if freedom.kind == "turn":
-                off, least = np.remainder(off + np.pi, 2 * np.pi) - np.pi, 1.0
-            apart.append(worst(np.abs(off)) / max(1.0, least, worst(np.abs(place))))
-    return worst(apart)
+                error, least = np.remainder(error + np.pi, 2 * np.pi) - np.pi, 1.0
+            errors.append(worst(np.abs(error)) / max(1.0, least, worst(np.abs(place))))
+    return worst(errors)
 
 
 def _arms(scene: Scene) -> float:
