@@ -137,7 +137,7 @@ def laws(
 ) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each.
 
-    marched: the motion of the bodies at every step. apart: of its size, how far another integrator
+    marched: the motion of the bodies at every step. error: of its size, how far another integrator
     is from it: so much a rate may have drifted.
     """
     checks: dict[str, list[Check]] = {}
