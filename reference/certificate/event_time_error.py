@@ -13,8 +13,7 @@ from numpy.linalg import LinAlgError
 from ...cases.fields.event import Event
 from ...cases.scene import Scene
 from ...cases.scene.observe import observe
-from ...cases.scene.passages import lasting, passing
-from ...cases.scene.still import still
+from ...cases.scene.passages import passing, pieces, still
 from ...cases.trajectory import Trajectory
 from ..integrators.dop853 import DOP853
 from ..integrators.march import EPS, sizes
@@ -109,14 +108,12 @@ def lateness(scene: Scene, record: Trajectory, event: Event, room: float) -> flo
     """
     u = event.falling(observe(scene, record, event.quantity))
     room = max(room, TOLERANCE * worst(np.abs(u)))
-    small = still(scene, record, event.quantity)
-    corners = scene.corners()
-    error = 0.0
-    for rows in lasting(record):
-        times = record.times[rows]
-        for t, curve in passing(times, u[rows], small, corners):
-            lasted = t - float(times[0])
-            error = max(error, _time_below(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
+    small, error = still(scene, record, event.quantity), 0.0
+    for _, times, values in pieces(record, u, scene.corners()):
+        for t, curve in passing(times, values, small):
+            if curve is not None:
+                lasted = t - float(record.times[0])
+                error = max(error, _time_below(lambda s, t=t, u=curve: u(t - s), room, t, lasted))
     return error
 
 
