@@ -46,21 +46,21 @@ UNITS |= {"vx": "m/s", "vy": "m/s", "vz": "m/s"} | dict.fromkeys(("omega", *RATE
 def check_start(case: Case, system: System, generated: Mechanism) -> None:
     """Raises CaseError with what a hand-written system starts otherwise than the scene does."""
     mode, *state = system.start()
-    told = system.modes[mode].poses(0.0, *state)
-    if unknown := [name for name in case.scene.bodies if name not in told]:
-        has = ", ".join(name for name, pose in told.items() if len(pose) > 1)
+    poses = system.modes[mode].poses(0.0, *state)
+    if unknown := [name for name in case.scene.bodies if name not in poses]:
+        has = ", ".join(name for name, pose in poses.items() if len(pose) > 1)
         what = f"{case.system} has no body {unknown[0]!r}; its bodies: {has}"
         raise CaseError([case.mistake(("scene", "bodies", unknown[0]), what)])
-    own = {name: told[name] for name in case.scene.bodies}  # a start of inner states is no body's
+    own = {name: poses[name] for name in case.scene.bodies}  # a start of inner states is no body's
     assembled = generated.base.where.poses(*generated.start()[1:])
-    if found := list(_otherwise(case, own, assembled)):
-        raise CaseError(found)
+    if mistakes := list(_otherwise(case, own, assembled)):
+        raise CaseError(mistakes)
 
 
 def _otherwise(
     case: Case, own: Mapping[str, Pose], assembled: Mapping[str, Pose]
 ) -> Iterator[Mistake]:
-    """At what the file gives; at the body, if it gives nothing of what differs."""
+    """Yields a mistake at each entry, or else body, of which the written start differs."""
     names, frame = list(assembled), case.scene.frame
     fields = FIELDS[frame]
     a, b = (np.array([poses[name] for name in names], float) for poses in (own, assembled))
@@ -73,14 +73,14 @@ def _otherwise(
     columns = range(frame.width)
     least = {i: max(least, *size[kind]) for kind, least in kinds for i in columns[kind]}
     for row, name in enumerate(names):
-        apart = [abs(a[row, i] - b[row, i]) for i in columns]
-        differ = [i for i, d in enumerate(apart) if not d <= START * least[i]]
+        errors = [abs(a[row, i] - b[row, i]) for i in columns]
+        differ = [i for i, d in enumerate(errors) if not d <= START * least[i]]
         given = (
             [i for i in differ if fields[i] in case.initial[name].given]
             if name in case.initial
             else []
         )
-        for i in given or sorted(differ, key=lambda i: -apart[i])[:1]:
+        for i in given or sorted(differ, key=lambda i: -errors[i])[:1]:
             what = (
                 f"{case.system} starts {name} with {fields[i]} = {a[row, i]:.6g} "
                 f"{UNITS[fields[i]]}, the "
@@ -101,21 +101,21 @@ def check_premises(case: Case, motion: Trajectory, followed: Followed) -> None:
     motion: at every step of the march, whatever the samples are; followed: the changes of mode.
     """
     happened = [change.name for change in followed.changes]
-    for mistakes in (
+    for kind in (
         _unsaid(case, motion, happened),
         _grazes(case, followed.touched),
         _slipping(case, motion),
         _past_ends(case, motion),
-        _still(case, motion),
-        _struck(case, motion),
+        _motionless(case, motion),
+        _blow_work(case, motion),
         _beyond_law(case, motion),
     ):
-        if found := list(mistakes):
-            raise CaseError(found)
+        if mistakes := list(kind):
+            raise CaseError(mistakes)
 
 
 def _unsaid(case: Case, motion: Trajectory, happened: Collection[str | None]) -> Iterator[Mistake]:
-    """A contact that starts above the floor and lands has to say so: often it is a slip of the pen.
+    """Yields a mistake for a contact that starts above the floor and lands, unless it says so.
 
     One that has not landed by the end is no mistake: there is nothing to say yet.
     """
@@ -161,11 +161,11 @@ def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             continue
         pushed = motion.reactions[f"{pair.name}.normal"] > 0
         times = list[float]()
-        for left in pair.margins(motion_of(case.scene, motion)):
-            times += motion.times[(left < 0) & pushed].tolist()
+        for margin in pair.margins(motion_of(case.scene, motion)):
+            times += motion.times[(margin < 0) & pushed].tolist()
             for rows in smooth(motion, bends):
-                if np.all(left[rows] >= 0) and np.any(pushed[rows]):
-                    times += [t for t, _ in dips(motion.times[rows], left[rows])]
+                if np.all(margin[rows] >= 0) and np.any(pushed[rows]):
+                    times += [t for t, _ in dips(motion.times[rows], margin[rows])]
         if times:
             what = (
                 f"{pair.at} has left the {pair.on} by t = {min(times):.3g} s, "
@@ -175,7 +175,7 @@ def _past_ends(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 
 def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Rolling or pivoting is assumed: |λ_t| ≤ μ λ_n and λ_n > 0 at every step, and between them.
+    """Yields a mistake where what rolls or pivots breaks |λ_t| ≤ μ λ_n or λ_n > 0, in any step.
 
     Names the first time at which it fails, and the μ that would be enough.
     """
@@ -184,7 +184,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
             continue
         doing = "rolling" if contact.ideal == "rolling" else "pivoting"
         normal = motion.reactions[f"{contact.name}.normal"]
-        tangent, carried = _along_floor(motion, contact.name), _carried(case, motion, contact)
+        tangent, carried = _along_floor(motion, contact.name), _support(case, motion, contact)
         fails = tangent > (contact.friction + ROUNDING) * normal
         fails |= (carried <= 0) | (normal < 0)
         if not np.any(fails):
@@ -193,7 +193,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         first = int(np.argmax(fails))
         t = motion.times[first]
         if carried[first] <= 0 or normal[first] < 0:
-            what = _pulled(contact, float(t))
+            what = _pull_text(contact, float(t))
         else:
             what = (
                 f"{doing} is not possible with friction {contact.friction:.3g}: at t = {t:.3g} s "
@@ -202,7 +202,7 @@ def _slipping(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         yield case.mistake(("scene", "contacts", contact.name, "ideal"), what)
 
 
-def _pulled(contact: Contact, t: float) -> str:
+def _pull_text(contact: Contact, t: float) -> str:
     plane = contact.plane.name
     return f"the {plane} would have to pull at t = {t:.3g} s: {contact.body} leaves it"
 
@@ -214,7 +214,7 @@ def _slipping_between(
     doing = "rolling" if contact.ideal == "rolling" else "pivoting"
     path = ("scene", "contacts", contact.name, "ideal")
     if pulls := _pulls(case, motion, carried):
-        what = _pulled(contact, min(pulls))
+        what = _pull_text(contact, min(pulls))
         yield case.mistake(path, what)
     elif slips := _dips_of_friction(case, motion, contact.name, normal, contact.friction):
         what = (
@@ -235,40 +235,40 @@ def _dips_of_friction(
     case: Case, motion: Trajectory, contact: str, normal: Array, mu: float
 ) -> list[tuple[float, float]]:
     """When [s] between two steps that coefficient is not enough, and which would be."""
-    found = list[tuple[float, float]]()
+    shortfalls = list[tuple[float, float]]()
     for rows in smooth(motion, case.scene.corners()):
         times, pushes = motion.times[rows], normal[rows]
-        for side in _sides(motion, contact):
+        for side in _friction_each_way(motion, contact):
             for t, low in dips(times, mu * pushes - side[rows]):
                 push = float(np.interp(t, times, pushes))
-                found.append((t, mu - low / push if push > 0.0 else mu))
-    return found
+                shortfalls.append((t, mu - low / push if push > 0.0 else mu))
+    return shortfalls
 
 
-def _sides(motion: Trajectory, contact: str) -> tuple[Array, ...]:
+def _friction_each_way(motion: Trajectory, contact: str) -> tuple[Array, ...]:
     """(N,) the floor's friction [N] one way and the other; in space its size."""
     along = motion.reactions.get(f"{contact}.tangent")
     return (_along_floor(motion, contact),) if along is None else (along, -along)
 
 
-def _carried(case: Case, motion: Trajectory, contact: Contact) -> Array:
-    """(N,) what carries the body [N]: one that stands on a corner has nothing from the others.
+def _support(case: Case, motion: Trajectory, contact: Contact) -> Array:
+    """(N,) Normal force that carries the body [N]: of one on a corner that of the corner alone.
 
     Of feet that stand one after the other it is what they carry together.
     """
     feet = [
         name
         for name, other in case.scene.contacts.items()
-        if (other.ahead_of if contact.ahead_of else _beside(contact, other))
+        if (other.ahead_of if contact.ahead_of else _pivot_together(contact, other))
     ]
     each = [motion.reactions[f"{name}.normal"] for name in feet]
     return each[0] if len(each) == 1 else np.sum(each, axis=0)
 
 
-def _beside(one: Contact, other: Contact) -> bool:
+def _pivot_together(a: Contact, b: Contact) -> bool:
     """Whether both are points of one body on one plane that only pivot, or one contact."""
-    pivots = one.ideal == other.ideal == "pivot"
-    return one is other or (pivots and (one.body, one.on) == (other.body, other.on))
+    pivots = a.ideal == b.ideal == "pivot"
+    return a is b or (pivots and (a.body, a.on) == (b.body, b.on))
 
 
 def _along_floor(motion: Trajectory, contact: str) -> Array:
@@ -279,7 +279,7 @@ def _along_floor(motion: Trajectory, contact: str) -> Array:
 
 
 def _needed(case: Case, motion: Trajectory, contact: Contact, normal: Array, carried: Array) -> str:
-    """Which coefficient would be enough, at the steps and between them; or that none is."""
+    """Words for the coefficient of friction that would be enough, or that none is."""
     stands = np.full(len(normal), True) if carried is normal else normal > 0
     pushes, rubs = normal[stands], _along_floor(motion, contact.name)[stands]
     if np.any(pushes <= 0) or _pulls(case, motion, carried):
@@ -299,8 +299,8 @@ def _no_less(value: float) -> str:
     return f"{math.ceil(value / digit - ROUNDING) * digit:.4g}"
 
 
-def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """A place or velocity that stays what it was proves nothing, unless that is the claim."""
+def _motionless(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """Yields a mistake for a place or velocity that stays constant, unless that is the claim."""
     known = table(case.scene)
     for name in (name for name in case.allow if name in known):  # the rest are of events
         quantity = known[name]
@@ -308,7 +308,7 @@ def _still(case: Case, motion: Trajectory) -> Iterator[Mistake]:
         if quantity.kind not in ("coordinate", "velocity"):
             continue
         samples = observe(case.scene, motion, name)
-        moved, still = _moved(samples), stays(case, motion, name)
+        moved, still = _range(samples), stays(case, motion, name)
         if case.rests and not claimed:
             if not still:
                 what = f"{name} moves by {moved:.3g} {quantity.unit}"
@@ -334,7 +334,7 @@ def stays(case: Case, motion: Trajectory, name: str) -> bool:
     least = STILL * size
     if unit == "m" and samples.ndim == 1:  # where the scene stands is no motion
         least = max(STILL * _spread(motion, case), HELD * size)
-    return _moved(samples) <= max(least, NOISE * _floor(case, unit))
+    return _range(samples) <= max(least, NOISE * _floor(case, unit))
 
 
 def _spread(motion: Trajectory, case: Case) -> float:
@@ -350,13 +350,13 @@ def _floor(case: Case, unit: str) -> float:
     return through / case.duration if unit.endswith("/s") else through
 
 
-def _moved(samples: Array) -> float:
-    """How far a quantity goes; of an attitude, from where it began."""
+def _range(samples: Array) -> float:
+    """The range of a quantity; of an attitude, its largest turn from the first."""
     return float(np.ptp(samples) if samples.ndim == 1 else np.max(apart(samples, samples[:1])))
 
 
-def _struck(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Work of what drives a joint, where something strikes: a blow has an impulse, and no power."""
+def _blow_work(case: Case, motion: Trajectory) -> Iterator[Mistake]:
+    """Yields a mistake for work of a joint's drive where something strikes: a blow has no power."""
     known, frame = table(case.scene), case.scene.frame
     columns = [*frame.alike("m/s"), *frame.alike("rad/s")]
     for name in case.allow:
@@ -378,7 +378,7 @@ def _struck(case: Case, motion: Trajectory) -> Iterator[Mistake]:
 
 
 def _beyond_law(case: Case, motion: Trajectory) -> Iterator[Mistake]:
-    """Muscles after Hill that contract under less than −a: there they have no law."""
+    """Yields a mistake for a Hill muscle under less than −a, where it has no law."""
     muscle: Any
     for name, muscle in case.scene.forces.items():
         if (least := LEAST.get(muscle.word)) is None:

@@ -68,10 +68,10 @@ def _noting(member: Any) -> Any:
 @contextmanager
 def noting() -> Iterator[set[str]]:
     """The equations of what runs inside, filled in at the end."""
-    found, before = set[str](), set(_ran)
+    numbers, before = set[str](), set(_ran)
     _ran.clear()
     try:
-        yield found
+        yield numbers
     finally:
-        found.update(*_ran)
+        numbers.update(*_ran)
         _ran.update(before)

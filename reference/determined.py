@@ -35,42 +35,42 @@ Spans = Mapping[str, tuple[float, float]]
 
 
 def check_determined(case: Case, built: Answer, generated: Mechanism) -> tuple[Check, ...]:
-    """How far apart the values of a force are that is asked for, of the largest force.
+    """Checks that statics determines each force that is asked for, relative to the largest.
 
     Raises CaseError with those that statics does not decide.
     """
-    asked = dict(_asked(case))
-    forces = [name for name in dict.fromkeys(asked.values()) if _felt(case, name)]
+    asked = dict(_bounded_quantities(case))
+    forces = [name for name in dict.fromkeys(asked.values()) if _depends_on_forces(case, name)]
     if not forces:
         return ()
-    found: dict[str, tuple[float, str]] = {}
+    undetermined: dict[str, tuple[float, str]] = {}
     widest = [0.0]
     for t, poses, leeway in _samples(case, built, generated):
-        moved = list(_open(case, poses, leeway, forces))
+        moved = list(_open_quantities(case, poses, leeway, forces))
         widest += [width for _, width, _ in moved]
         for name, width, spans in moved:
-            if width > POINT and name not in found:
-                found[name] = t, _told(case, name, spans)
+            if width > POINT and name not in undetermined:
+                undetermined[name] = t, _spans_text(case, name, spans)
     mistakes = [
-        case.mistake(path, WHAT.format(*found[name]))
+        case.mistake(path, WHAT.format(*undetermined[name]))
         for path, name in asked.items()
-        if name in found
+        if name in undetermined
     ]
     if mistakes:
         raise CaseError(mistakes)
     return (Check(NAME, worst(widest), POINT),)
 
 
-def _asked(case: Case) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Where a quantity is asked for, and which."""
+def _bounded_quantities(case: Case) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Yields the path and the name of each quantity that the case asks for."""
     for name in case.allow:
         at = at_event(name, case.events)
         yield ("allow", name), name if at is None else at.quantity
     yield from ((("events", name), event.quantity) for name, event in case.events.items())
 
 
-def _felt(case: Case, name: str) -> bool:
-    """Whether it may be told by a force."""
+def _depends_on_forces(case: Case, name: str) -> bool:
+    """Whether a quantity is a force or a work."""
     known = table(case.scene)
     return name in known and (known[name].kind == "force" or known[name].field in WORK)
 
@@ -78,7 +78,7 @@ def _felt(case: Case, name: str) -> bool:
 def _samples(
     case: Case, built: Answer, generated: Mechanism
 ) -> Iterator[tuple[float, Mapping[str, Pose], Leeway]]:
-    """The samples at which equilibrium leaves forces open, and those."""
+    """Yields time, poses and open forces of each sample at which equilibrium leaves any open."""
     followed = built.followed
     for t, name, y in zip(case.times.tolist(), followed.modes, followed.y, strict=True):
         mode = generated.modes[name]
@@ -87,29 +87,29 @@ def _samples(
             yield t, mode.poses(t, q, v), leeway
 
 
-def _open(
+def _open_quantities(
     case: Case, poses: Mapping[str, Pose], leeway: Leeway, forces: list[str]
 ) -> Iterator[tuple[str, float, Spans]]:
-    """The asked quantities that equilibrium leaves open, how wide, and the forces that do it."""
+    """Yields each quantity that equilibrium leaves open, its width, and the spans of forces."""
     states = {name: np.tile(pose, (STEADY, 1)) for name, pose in poses.items() if len(pose) > 1}
     inner = {name: pose[0] for name, pose in poses.items() if len(pose) == 1}
     times = np.arange(float(STEADY))
 
     def seen(name: str, reactions: Mapping[str, float]) -> float:
-        told = {key: np.full(STEADY, x) for key, x in {**reactions, **inner}.items()}
-        return float(observe(case.scene, Trajectory(times, states, told), name)[-1])
+        values = {key: np.full(STEADY, x) for key, x in {**reactions, **inner}.items()}
+        return float(observe(case.scene, Trajectory(times, states, values), name)[-1])
 
     for name in forces:
-        own = seen(name, leeway.one)
+        own = seen(name, leeway.forces)
         others = [seen(name, way) for way in leeway.ways]
         if all(abs(other - own) <= LEANS * leeway.size for other in others):
             continue
         spans = {name: leeway.spanned(own, others)}
         if not _linear(leeway, own, others, lambda forces, name=name: seen(name, forces)):
             part = f"{table(case.scene)[name].part}."
-            parts = (x for x in leeway.one if x.startswith(part) and leeway.open(x))
+            parts = (x for x in leeway.forces if x.startswith(part) and leeway.open(x))
             spans = {x: leeway.span(x) for x in parts}
-        spans = {x: _clear(span, leeway.size) for x, span in spans.items()}
+        spans = {x: _without_rounding(span, leeway.size) for x, span in spans.items()}
         yield name, worst(high - low for low, high in spans.values()) / leeway.size, spans
 
 
@@ -119,31 +119,31 @@ def _linear(
     others: Sequence[float],
     seen: Callable[[Mapping[str, float]], float],
 ) -> bool:
-    """Whether a quantity is linear in the forces, told by twice the ways: a size is not."""
+    """Whether a quantity is linear in the forces, tested at twice the ways."""
     far = {
-        name: x + 2 * sum(way[name] - x for way in leeway.ways) for name, x in leeway.one.items()
+        name: x + 2 * sum(way[name] - x for way in leeway.ways) for name, x in leeway.forces.items()
     }
-    told = own + 2 * sum(other - own for other in others)
-    return abs(seen(far) - told) <= LEANS * leeway.size
+    expected = own + 2 * sum(other - own for other in others)
+    return abs(seen(far) - expected) <= LEANS * leeway.size
 
 
-def _clear(span: tuple[float, float], size: float) -> tuple[float, float]:
+def _without_rounding(span: tuple[float, float], size: float) -> tuple[float, float]:
     """A span without the rounding of a bound that is 0."""
     low, high = (0.0 if abs(x) <= LEANS * size else x for x in span)
     return low, high
 
 
-def _told(case: Case, name: str, spans: Spans) -> str:
-    """`foot.normal: anything from 43.67 to 57.19 N`."""
+def _spans_text(case: Case, name: str, spans: Spans) -> str:
+    """Words for spans: `foot.normal: anything from 43.67 to 57.19 N`."""
     known = table(case.scene)
     each = [
-        f"{force}: {_between(*span)} {known[force].unit if force in known else known[name].unit}"
+        f"{force}: {_interval(*span)} {known[force].unit if force in known else known[name].unit}"
         for force, span in spans.items()
     ]
     return each[0] if name in spans else f"{name} ({', '.join(each)})"
 
 
-def _between(low: float, high: float) -> str:
+def _interval(low: float, high: float) -> str:
     match math.isinf(low), math.isinf(high):
         case True, True:
             return "anything, in"

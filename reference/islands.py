@@ -18,7 +18,7 @@ from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .certificate.agreement import Check, gravest, worst
 from .certificate.errors import ERROR
-from .certificate.reaction_check import AGREE, condition, lost
+from .certificate.reaction_check import AGREE, condition, rounding_error
 from .mechanism.kinematics.coordinates import Coordinates
 from .mechanism.kinematics.spatial_coordinates import SpatialCoordinates
 from .mechanism.modes.mode import Multibody
@@ -59,14 +59,14 @@ def _part(case: Case, scene: Scene, corners: tuple[float, ...]) -> Case:
     )
 
 
-def together(case: Case, found: Sequence[Island]) -> tuple[Trajectory, tuple[Check, ...]]:
+def together(case: Case, islands: Sequence[Island]) -> tuple[Trajectory, tuple[Check, ...]]:
     """The motion of all, and of each check the gravest; errors of sums are sums of errors."""
-    motion = joined(case, found, case.times)
+    motion = joined(case, islands, case.times)
     checks: dict[str, list[Check]] = {}
-    for check in (check for island in found for check in island.checks):
+    for check in (check for island in islands for check in island.checks):
         checks.setdefault(check.name, []).append(check)
-    bases = [island.base for island in found]
-    return motion, (*(_of_all(each) for each in checks.values()), _alone(case, motion, bases))
+    bases = [island.base for island in islands]
+    return motion, (*(_of_all(each) for each in checks.values()), _isolation(case, motion, bases))
 
 
 def joined(case: Case, islands: Sequence[Island], times: Array) -> Trajectory:
@@ -94,25 +94,25 @@ def _of_all(checks: Sequence[Check]) -> Check:
     )
 
 
-def _alone(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Check:
+def _isolation(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Check:
     """The accelerations of the whole scene, in which an island feels nothing of the others.
 
     At any rates, because a damper between two islands at rest does nothing.
     """
     random, whole = np.random.default_rng(SEED), _whole(case, _state(motion, 0))
-    apart, bound = [0.0], AGREE
+    errors, bound = [0.0], AGREE
     for i in np.linspace(0, len(motion.times) - 1, ASKED).astype(int).tolist():
         t, poses = float(motion.times[i]), _state(motion, i)
         q, v = whole.place(poses)
         rates = (worst(np.abs(v)) or 1.0) * random.uniform(-1.0, 1.0, len(v))
         poses |= whole.poses(t, q, rates)
-        felt = _accelerations(whole, t, poses)
+        whole_rates = _accelerations(whole, t, poses)
         for base in islands:
             own, place = _accelerations(base, t, poses), base.place(poses)
             size = max(base.terms(t, *place)[0], *(worst(np.abs(a)) for a in own.values())) or 1.0
-            apart += [worst(np.abs(felt[name] - a)) / size for name, a in own.items()]
-            bound = max(bound, lost(condition(base.f_a(t, place[0]), base)))
-    return Check("each island by itself", worst(apart), bound)
+            errors += [worst(np.abs(whole_rates[name] - a)) / size for name, a in own.items()]
+            bound = max(bound, rounding_error(condition(base.f_a(t, place[0]), base)))
+    return Check("each island by itself", worst(errors), bound)
 
 
 def _state(motion: Trajectory, i: int) -> dict[str, Pose]:

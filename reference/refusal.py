@@ -47,7 +47,7 @@ def bounded(case: Case) -> Iterator[None]:
         place = ("duration",) if case.states is None else ("states", "random")
         mistake = case.mistake(place, what + GO_ON)
         if endless.among:
-            mistake = case.mistake(_where(case, endless.among), what + _fewer(endless.among))
+            mistake = case.mistake(_where(case, endless.among), what + _advice(endless.among))
         raise CaseError([mistake]) from endless
     except MemoryError as error:
         more = f" ({error})" if str(error) else ""
@@ -97,10 +97,10 @@ def _where(case: Case, among: Sequence[str]) -> tuple[str, ...]:
     return "scene", max(sections, key=counts.__getitem__)
 
 
-def _fewer(among: Sequence[str]) -> str:
+def _advice(among: Sequence[str]) -> str:
     """Advice to a person with very many ways, as the end of a sentence."""
-    left = len(among) - NAMED
-    names = ", ".join(among[:NAMED]) + (f" and {left} more" if left > 0 else "")
+    more = len(among) - NAMED
+    names = ", ".join(among[:NAMED]) + (f" and {more} more" if more > 0 else "")
     return (
         f"{len(among)} elements of bodies that hang together may each stick, slide or open there "
         f"({names}), and each multiplies the ways; give fewer, some of them `friction: 0`, or take "
@@ -133,7 +133,7 @@ def _mistake(case: Case, generated: Mechanism, failure: Exception) -> Mistake:
                 why = str(failure).partition(" at t = ")[0]
                 if (joint := _sharpest(case)) is not None:
                     place = ("scene", "joints", joint.name, "dry_friction", "smooth", "sharpness")
-                    why += _sharp(joint)
+                    why += _smoother(joint)
                 else:
                     why += _uneven(case)
         case _:
@@ -189,7 +189,7 @@ def _sharpness(joint: Joint) -> float:
     return dry.smooth.sharpness * max(dry.static.forward, dry.static.backward)
 
 
-def _sharp(joint: Joint) -> str:
+def _smoother(joint: Joint) -> str:
     """Advice to a person with too sharp a law of friction, as the end of a sentence."""
     return (
         "; the sharpness A of (2.95) counts forces as it counts speeds, and the law switches "

@@ -62,29 +62,29 @@ def solve(case: Case) -> Solution:
     """
     begun(case.name)
     with noting() as equations, bounded(case), one_thread():
-        motion, checks = _moved(case) if case.states is None else answered(case)
+        motion, checks = _solve_islands(case) if case.states is None else answered(case)
     return Solution(motion, case.system or "generated", checks, frozenset(equations))
 
 
-def _moved(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
-    found, mistakes, cases = list[Island](), list[Mistake](), parts(case)
+def _solve_islands(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
+    islands, mistakes, cases = list[Island](), list[Mistake](), parts(case)
     for k, part in enumerate(cases, start=1):
         if len(cases) > 1:
             begun(f"{case.name}, island {k} of {len(cases)}")
         try:
-            found.append(_solved(part))
+            islands.append(_solve_part(part))
         except CaseError as error:
             mistakes += error.mistakes
     if mistakes:
         raise CaseError(mistakes)
-    alone = found[0].motion, found[0].checks
-    motion, checks = alone if len(cases) == 1 else together(case, found)
+    alone = islands[0].motion, islands[0].checks
+    motion, checks = alone if len(cases) == 1 else together(case, islands)
     if wrong := beyond(case, checks):
         raise CaseError(wrong)
     return motion, checks
 
 
-def _solved(case: Case) -> Island:
+def _solve_part(case: Case) -> Island:
     """The motion of what hangs together, and its checks."""
     doing("its start")
     written = _written(case)
@@ -122,7 +122,7 @@ def _motion(case: Case, built: Answer, answer: Answer) -> Trajectory:
     """The answer's bodies at the samples, with its record if the case asks for events."""
     motion = _switched(answer, answer.trajectory(case.times), case.duration)
     if case.events:
-        ended = _ended(built.followed, answer.followed)
+        ended = _phase_ends(built.followed, answer.followed)
         motion = replace(motion, record=replace(answer.record(forces=_felt(case)), ended=ended))
     return motion
 
@@ -169,13 +169,13 @@ def mechanism(case: Case) -> Mechanism:
     """The mechanism of a case's scene at its start. Raises CaseError as `assemble` does."""
     closure = closure_of(case)
     q, v = assembled(closure)
-    found = _at(case, closure, q, v)
+    generated = _build(case, closure, q, v)
     if (other := as_good(closure, q, v)) is not None:
-        found.beside = _at(case, closure, *other)
-    return found
+        generated.beside = _build(case, closure, *other)
+    return generated
 
 
-def _at(case: Case, closure: PlanarClosure | SpatialClosure, q: Array, v: Array) -> Mechanism:
+def _build(case: Case, closure: PlanarClosure | SpatialClosure, q: Array, v: Array) -> Mechanism:
     if case.scene.frame is SPACE:
         return SpatialMechanism(case.scene, (q, v))
     inner = [force.begins for force in case.scene.inner().values()]
@@ -194,30 +194,30 @@ def _written(case: Case) -> System | None:
         raise CaseError([case.mistake(("parameters",), f"{case.system}: {error}")]) from error
 
 
-def reactions_of(generated: Mechanism, found: Followed, followed: Followed) -> Beside:
+def reactions_of(generated: Mechanism, own: Followed, followed: Followed) -> Beside:
     """The generated modes' reactions on the written motion, phase by phase.
 
     There are none in a phase that only a second answer has. With another count of phases they are
     those of a phase that is not the motion's, and the certificate says so: its events differ.
     """
-    same = len(found.phases) == len(followed.phases)
+    same = len(own.phases) == len(followed.phases)
 
     def reactions(phase: int, t: float, poses: Mapping[str, Pose]) -> Mapping[str, float]:
-        if phase >= len(found.phases):
+        if phase >= len(own.phases):
             if same:
                 return {}
-            phase = len(found.phases) - 1
-        mode = generated.modes[found.phases[phase]]
+            phase = len(own.phases) - 1
+        mode = generated.modes[own.phases[phase]]
         return mode.reactions(t, *generated.base.place(poses))
 
     return reactions
 
 
-def _ended(found: Followed, followed: Followed) -> tuple[str, ...]:
-    """The generated mechanism's words for what ended each phase of the motion, where both agree."""
-    if len(found.changes) != len(followed.changes):
+def _phase_ends(own: Followed, followed: Followed) -> tuple[str, ...]:
+    """Names of what ended each phase, by the generated mechanism, where both motions agree."""
+    if len(own.changes) != len(followed.changes):
         return ()
-    return (*(change.name or "" for change in found.changes), "")
+    return (*(change.name or "" for change in own.changes), "")
 
 
 def _accelerations(case: Case) -> bool:
@@ -227,7 +227,7 @@ def _accelerations(case: Case) -> bool:
 
 
 def _felt(case: Case) -> bool:
-    """Whether an event is told by a force, or a force at an event."""
+    """Whether an event is defined by a force, or a force asked for at an event."""
     known = table(case.scene)
     return any(known[name].kind == "force" for name in told_by(case.events, case.allow))
 
@@ -259,7 +259,7 @@ def one_thread() -> Iterator[None]:
 @cache
 def _libraries() -> list[tuple[Callable[[], int], Callable[[int], Any]]]:
     """For each library: what asks and what sets its number of threads; other BLAS stay as is."""
-    return [found for file in _files() if (found := _calls(file)) is not None]
+    return [calls for file in _files() if (calls := _calls(file)) is not None]
 
 
 def _files() -> Iterator[Path]:

@@ -55,7 +55,7 @@ def relative(a: Array, b: Array, *, least: float = 0.0) -> float:
 
 
 def difference(
-    one: Trajectory, other: Trajectory, inner: Iterable[str] = (), *, far: float = 0.0
+    a: Trajectory, b: Trajectory, inner: Iterable[str] = (), *, far: float = 0.0
 ) -> float:
     """Largest difference of places, angles, velocities and rates, each relative to its size.
 
@@ -65,21 +65,21 @@ def difference(
     A mechanism at rest moves by rounding only, so sizes are not taken below what would carry it
     through its own size, or 1 rad, in the duration.
     """
-    a, b = (np.concatenate([motion.states[name] for name in one.states]) for motion in (one, other))
-    duration = float(one.times[-1] - one.times[0])
-    frame = frame_of(a.shape[1])
-    size = max(far, worst(np.abs(a[:, frame.place]).ravel()))
+    x, y = (np.concatenate([motion.states[name] for name in a.states]) for motion in (a, b))
+    duration = float(a.times[-1] - a.times[0])
+    frame = frame_of(x.shape[1])
+    size = max(far, worst(np.abs(x[:, frame.place]).ravel()))
     if frame is SPACE:  # a quaternion and its opposite are the same attitude
-        same = np.sum(a[:, frame.attitude] * b[:, frame.attitude], axis=1, keepdims=True) >= 0
-        b[:, frame.attitude] *= np.where(same, 1.0, -1.0)
+        same = np.sum(x[:, frame.attitude] * y[:, frame.attitude], axis=1, keepdims=True) >= 0
+        y[:, frame.attitude] *= np.where(same, 1.0, -1.0)
     groups = [(frame.place, far), (frame.attitude, 1.0)]
     groups += [(frame.velocity, size / duration), (frame.spin, 1.0 / duration)]
-    found = [relative(a[:, g], b[:, g], least=least) for g, least in groups]
-    return worst([*found, *(relative(one.reactions[u], other.reactions[u]) for u in inner)])
+    errors = [relative(x[:, g], y[:, g], least=least) for g, least in groups]
+    return worst([*errors, *(relative(a.reactions[u], b.reactions[u]) for u in inner)])
 
 
-def times_apart(one: Sequence[float], other: Sequence[float]) -> float:
+def times_apart(first: Sequence[float], second: Sequence[float]) -> float:
     """The largest difference [s] of times in their order; infinite if their counts differ."""
-    if len(one) != len(other):
+    if len(first) != len(second):
         return float("inf")
-    return worst(abs(a - b) for a, b in zip(one, other, strict=True))
+    return worst(abs(a - b) for a, b in zip(first, second, strict=True))

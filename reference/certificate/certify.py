@@ -27,7 +27,7 @@ from ..start.assembly import size_of
 from ..system import Array, Mode, System, instant
 from .agreement import Check, difference, times_apart, worst
 from .errors import errors
-from .event_time_error import untimed
+from .event_time_error import time_bound
 from .file_checks import as_the_file_says
 from .laws import laws
 from .one_sided_checks import one_sided_checks
@@ -70,27 +70,27 @@ def certify(
     compared = partial(difference, inner=case.scene.inner(), far=far)
     stiff = any(system.modes[mode].stiff for mode in followed.phases)
     finer = finely(times, system.corners, whole=stiff)
-    name, closer = _second(system, finer, stiff=stiff)
+    name, closer = _second_solution(system, finer, stiff=stiff)
     asked = np.searchsorted(finer, times)
     second = replace(closer, y=closer.y[asked], phase=closer.phase[asked])
     others = {name: replace(written, followed=second).trajectory(times)}
     apart = compared(motion, others[name])
-    checks, found = [], {f"{name}: events": second}
+    checks, runs = [], {f"{name}: events": second}
     if system is not generated:
-        others["generated"], found["generated events"] = built.trajectory(times), built.followed
+        others["generated"], runs["generated events"] = built.trajectory(times), built.followed
         off = compared(motion, others["generated"])
-        checks.append(Check("generated motion", off, max(GENERATED, _looser(apart)), measured=True))
+        checks.append(Check("generated motion", off, max(GENERATED, _bound(apart)), measured=True))
         checks += reaction_checks(written, built, generated, times)
-    own, known = max(_own(followed), _looser(apart)), apart
+    own, known = max(_own_error(followed), _bound(apart)), apart
     if (closed := _closed_form(system, times)) is not None:
         others["closed form"] = written.trajectory(times, closed)
         off = compared(motion, others["closed form"])
         checks.append(Check("closed form", off, own, measured=True))
     drifted = apart * float(times[-1] - times[0])  # s: as large a part of the time
     ends = any(map(_rests, followed.changes))
-    alone = max(system.blurred if ends else 0.0, untimed(system, followed))
-    later = max(_looser(drifted), 2 * alone)  # either way, two answers
-    checks += _events(system, followed, found, later, float(times[-1]))
+    alone = max(system.blurred if ends else 0.0, time_bound(system, followed))
+    later = max(_bound(drifted), 2 * alone)  # either way, two answers
+    checks += _events(system, followed, runs, later, float(times[-1]))
     doing("the laws at every sample", float(times[0]), float(times[-1]))
     if written.turns.angles:
         checks.append(Check("turns by their rates", written.turns.unrolled(), UNROLLED))
@@ -104,34 +104,34 @@ def certify(
     if generated.beside is not None:  # no bound but the case's: another motion of as good a start
         doing("the motion of another start")
         other = follow(generated.beside, times)
-        found["another start"] = other
+        runs["another start"] = other
         others["another start"] = replace(
             built, system=generated.beside, followed=other
         ).trajectory(times)
-    late = worst([drifted, alone, *(_events_apart(followed, other) for other in found.values())])
+    late = worst([drifted, alone, *(_events_apart(followed, other) for other in runs.values())])
     worked = partial(work_errors, case, motion, written)
     return (*checks, *errors(case, motion, others, late, worked))
 
 
 def _rests(change: Change) -> bool:
-    """Whether something stops and stays: what only turns round passes its stop with a slope."""
+    """Whether the change is a stop that lasts, and no reversal of the slip."""
     part, _, word = (change.name or "").rpartition(" ")
     goes_on = any(state.startswith(f"{part} slides") for state in change.mode_after.split(", "))
     return word == "stops" and not goes_on
 
 
-def _looser(apart: float) -> float:
-    """The bound on another answer's difference, a power of ten: its digits are rounding's."""
-    return 10.0 ** math.ceil(math.log10(LOOSER * apart)) if 0.0 < apart < math.inf else 0.0
+def _bound(error: float) -> float:
+    """Bound on the difference of another answer: the next power of ten above LOOSER · error."""
+    return 10.0 ** math.ceil(math.log10(LOOSER * error)) if 0.0 < error < math.inf else 0.0
 
 
-def _own(followed: Followed) -> float:
-    """The error to which a motion that is not sensitive is known, as a share of its size."""
+def _own_error(followed: Followed) -> float:
+    """Relative error of a motion that is not sensitive to its start."""
     return SWITCHED if followed.changes else max(OWN_ERROR, ROUNDING * followed.steps)
 
 
 def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
-    """The samples with others between them, and on the corners and between these.
+    """The samples, refined by the corners and by times between all of them.
 
     whole: whether an interval without a corner stays whole.
     """
@@ -149,42 +149,42 @@ def finely(times: Array, corners: Iterable[float], *, whole: bool) -> Array:
     return np.append(np.concatenate(gaps), times[-1])
 
 
-def _second(system: System, times: Array, *, stiff: bool) -> tuple[str, Followed]:
+def _second_solution(system: System, times: Array, *, stiff: bool) -> tuple[str, Followed]:
     """The motion by another integrator, or where it is stiff, by another tolerance."""
     name = "another tolerance" if stiff else "implicit integrator"
-    return name, follow(system, times, by=_other)
+    return name, follow(system, times, by=_other_method)
 
 
-def _other(mode: Mode, f: Slope, n: int) -> Method:
+def _other_method(mode: Mode, f: Slope, n: int) -> Method:
     if mode.stiff:
         return either(mode, f, n, tolerance=COARSER)
     return Radau(f, TOLERANCE, radau_table(STAGES))
 
 
-def _events_apart(one: Followed, other: Followed) -> float:
+def _events_apart(first: Followed, second: Followed) -> float:
     """The largest difference [s] of the times at which modes change; infinite if counts differ."""
-    return times_apart([c.time for c in one.changes], [c.time for c in other.changes])
+    return times_apart([c.time for c in first.changes], [c.time for c in second.changes])
 
 
 def _events(
-    system: System, followed: Followed, found: Mapping[str, Followed], late: float, until: float
+    system: System, followed: Followed, runs: Mapping[str, Followed], late: float, until: float
 ) -> Iterator[Check]:
     """The times at which modes change, in every other answer and by known functions.
 
     late: what a motion as sensitive as this one may have events apart by [s].
     """
     close = instant(until)
-    for name, other in found.items():
+    for name, other in runs.items():
         if followed.changes or other.changes:
-            off, bound = _events_apart(followed, other), max(OTHER_EVENTS * close, late)
-            yield Check(name, off, bound, measured=True)
+            error, bound = _events_apart(followed, other), max(OTHER_EVENTS * close, late)
+            yield Check(name, error, bound, measured=True)
     events = system.closed_events(until)
     if events is not None and (events or followed.events):
         bound = max(OWN_EVENTS * close, late)
-        yield Check("closed events", _known(followed, events), bound, measured=True)
+        yield Check("closed events", _distance_to_known(followed, events), bound, measured=True)
 
 
-def _known(followed: Followed, events: list[tuple[str, float]]) -> float:
+def _distance_to_known(followed: Followed, events: list[tuple[str, float]]) -> float:
     """The largest distance [s] from the events by known functions, by name and order."""
     names = {name for name, _ in events} | {event.name for event in followed.changes if event.name}
     return worst(
@@ -207,11 +207,11 @@ def _closed_form(system: System, times: Array) -> Array | None:
 def _drift(system: System, followed: Followed, bound: float) -> Iterator[Check]:
     """The residual of (2.14) at the march's steps, if it has rows, over the largest coordinate."""
     steps = [(t, followed.phases[k], y) for t, k, y in followed.march]
-    found = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in steps]
-    if any(len(residual) for residual in found):
+    residuals = [system.modes[mode].f(t, system.modes[mode].parted(y)[0]) for t, mode, y in steps]
+    if any(len(residual) for residual in residuals):
         places = np.concatenate([system.modes[mode].parted(y)[0] for _, mode, y in steps])
         size = worst(np.abs(places)) or 1.0
-        largest = worst(worst(np.abs(residual)) for residual in found)
+        largest = worst(worst(np.abs(residual)) for residual in residuals)
         yield Check("constraint drift", largest / size, bound, measured=True)
 
 
@@ -221,7 +221,7 @@ def _impossible(system: System, followed: Followed) -> int:
     Where a mode ends it is at its bound: what begins there is asked.
     """
     march = followed.march
-    ends = [one[1] != other[1] for one, other in pairwise(march)]
+    ends = [a[1] != b[1] for a, b in pairwise(march)]
     rows = [
         (t, followed.phases[k], y)
         for (t, k, y), last in zip(march, [*ends, False], strict=True)

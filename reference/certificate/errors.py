@@ -12,9 +12,9 @@ from ...cases.scene.difference import apart
 from ...cases.scene.observe import observe
 from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
-from ..motion.zeno import left
+from ..motion.zeno import to_limit
 from .agreement import Check, worst
-from .event_time_error import unread
+from .event_time_error import lateness
 
 SHARE = 0.01  # of the smallest tolerance: what the reference's own error may take
 EPS = float(np.finfo(np.float64).eps)
@@ -41,18 +41,18 @@ def errors(
     for name in case.allow:
         bar, at = least(case, name), at_event(name, case.events)
         if name in known:
-            error, unit = _apart(case, motion, others, name), known[name].unit
+            error, unit = _error(case, motion, others, name), known[name].unit
             error += summed.get(name, 0.0)
         elif name in times:
             event = case.events[times[name].part]
-            off = late + _unread(case, motion, others, times[name].part)
-            off += _piled(motion.endless) if event.rule == "stays zero" else 0.0
-            error, unit = max(EPS * float(motion.times[-1]), off), times[name].unit
+            shift = late + _bound(case, motion, others, times[name].part)
+            shift += _pile_limit(motion.endless) if event.rule == "stays zero" else 0.0
+            error, unit = max(EPS * float(motion.times[-1]), shift), times[name].unit
         elif at is not None:  # known as everywhere in the motion, but the event is late
             own = observe(case.scene, motion, at.quantity)
             fastest = worst(np.abs(np.diff(own))) / case.interval
-            off = late + _unread(case, motion, others, at.event)
-            error = _apart(case, motion, others, at.quantity) + fastest * off
+            shift = late + _bound(case, motion, others, at.event)
+            error = _error(case, motion, others, at.quantity) + fastest * shift
             unit = known[at.quantity].unit
         else:
             continue  # a count: the changes of mode are compared by name and number
@@ -60,39 +60,39 @@ def errors(
             yield Check(f"{ERROR}{name}", error / bar, SHARE, error, unit)
 
 
-def _piled(endless: Sequence[Array]) -> float:
-    """How long [s] after the last of a pile that was followed its limit may be."""
-    return max(map(left, endless), default=0.0)
+def _pile_limit(endless: Sequence[Array]) -> float:
+    """Largest time [s] from the last event of a pile-up that was followed to its limit."""
+    return max(map(to_limit, endless), default=0.0)
 
 
-def _unread(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
-    """By how much [s] an event may be off where its quantity passes through zero in a mode."""
+def _bound(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
+    """Error [s] of an event at which a quantity passes through zero within a mode."""
     event = case.events[name]
     if motion.record is None or not event.crosses:
         return 0.0
-    return unread(case.scene, motion.record, event, _apart(case, motion, others, event.quantity))
+    return lateness(case.scene, motion.record, event, _error(case, motion, others, event.quantity))
 
 
-def _apart(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
-    """How far a quantity's samples are from those of any other answer."""
+def _error(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
+    """Largest difference of a quantity's samples from those of the other answers."""
     own = observe(case.scene, motion, name)
-    found = [apart(own, observe(case.scene, other, name)) for other in others.values()]
+    differences = [apart(own, observe(case.scene, other, name)) for other in others.values()]
     size, quantity = worst(np.abs(own).ravel()), case.quantities[name]
     columns = case.scene.frame.alike(quantity.unit)
     if quantity.kind == "force":
         # One that is none, as the moment about a hinge's own axis, is what the others leave.
-        size = worst([size, *(worst(np.abs(x).ravel()) for x in _beside(case, motion, name))])
+        size = worst([size, *(worst(np.abs(x).ravel()) for x in _peers(case, motion, name))])
     else:
         # How far places are apart is known as well as they are, which may be far from the origin;
         # and one coordinate of a body on a wire as well as the other.
         mine = motion.states.get(quantity.part)
         states = motion.states.values() if mine is None else [mine]
         size = worst([size, *(worst(np.abs(s[:, columns]).ravel()) for s in states)])
-    return worst([EPS * size, *map(worst, found)])
+    return worst([EPS * size, *map(worst, differences)])
 
 
-def _beside(case: Case, motion: Trajectory, name: str) -> Iterator[Array]:
-    """The reactions of the same part and unit that are told."""
+def _peers(case: Case, motion: Trajectory, name: str) -> Iterator[Array]:
+    """Yields the samples of all reactions of the same part and unit."""
     known, (part, _, _) = case.quantities, name.rpartition(".")
     for other, values in motion.reactions.items():
         alike = other in known and known[other].unit == known[name].unit
@@ -118,23 +118,23 @@ def beyond(case: Case, checks: Sequence[Check]) -> list[Mistake]:
         not check.name.endswith("events") for check in broken if check not in own
     ):
         return []
-    found = []
+    mistakes = []
     for check in own:
         assert check.certified is not None
         name = check.name.removeprefix(ERROR)
         summed = name in case.quantities and case.quantities[name].field in WORK
         cure = ", or take more samples" if summed else ", or a shorter duration"
         cure = cure if case.states is None else ""
-        found += [
+        mistakes += [
             case.mistake(path, _asks(bar, check.certified, check.unit, cure))
             for path, bar in _bars(case, name)
             if not check.certified <= SHARE * bar
         ]
-    return found
+    return mistakes
 
 
 def _bars(case: Case, name: str) -> Iterator[tuple[tuple[str, ...], float]]:
-    """Where the case bounds a quantity, and by what."""
+    """Yields the path and the value of each bound that the case sets on a quantity."""
     allowed = case.allow[name]
     if allowed is not None:
         yield ("allow", name), allowed

@@ -1,4 +1,4 @@
-"""How well the times of events are known: no better than what falls to zero, where it is flat.
+"""Errors of the times of events: large where what falls to zero is flat.
 
 What is known to r, and falls through zero with the slope s, does so within r/s of its time; what
 only just reaches zero, as at a graze, within √(2 r/s′).
@@ -34,24 +34,23 @@ FIRST = 1  # from that step on: from rest a law with a root has no smooth slope 
 LINE = range(DIFFERENCED)
 
 
-def untimed(system: System, followed: Followed) -> float:
-    """By how much [s] the times of a motion's events may be off, each by what its own guard leaves
-    open and by what the events before it are off."""
+def time_bound(system: System, followed: Followed) -> float:
+    """Error [s] of the times of a motion's events, by their guards: the errors add up."""
     peak = np.max(np.abs([y for *_, y in followed.march]), axis=0)
-    known, off = TOLERANCE * sizes(peak, TOLERANCE), 0.0
+    known, error = TOLERANCE * sizes(peak, TOLERANCE), 0.0
     phases: list[list[Kept]] = [[] for _ in followed.phases]
     for row in followed.march:
         phases[row[1]].append(row)
     added = np.zeros_like(peak)
     for change, rows in zip(followed.changes, phases, strict=False):
-        added = np.hypot(added, _added(system.modes[change.mode_before], rows))
+        added = np.hypot(added, _step_rounding(system.modes[change.mode_before], rows))
         if change.guard is not None:
-            off += _untimed(system, change, change.guard, rows, known + added)
-    return off
+            error += _lead_time(system, change, change.guard, rows, known + added)
+    return error
 
 
-def _added(mode: Mode, rows: Sequence[Kept]) -> Array:
-    """The error that the steps of a mode make of its slopes' rounding: the state does not tell it.
+def _step_rounding(mode: Mode, rows: Sequence[Kept]) -> Array:
+    """(2 n,) Error that a mode's steps make of the rounding of its slopes.
 
     A spring of a metre that moves a millimetre has the rounding of a metre in its force. Each step
     adds up its slopes with weights, and what they leave adds up by chance.
@@ -62,19 +61,19 @@ def _added(mode: Mode, rows: Sequence[Kept]) -> Array:
     for k in lasting[sorted(asked)] if len(lasting) else ():
         t, _, y = rows[k]
         try:
-            found = noise(f, t, y, float(steps[k]), np.abs(y))
+            rounding = noise(f, t, y, float(steps[k]), np.abs(y))
         except (ArithmeticError, ValueError, LinAlgError):  # it may not be defined so far out
             continue
-        loud = loud if found is None else np.maximum(loud, found)
+        loud = loud if rounding is None else np.maximum(loud, rounding)
     return float(np.linalg.norm(DOP853.b) * np.linalg.norm(steps)) * loud
 
 
-def _untimed(
+def _lead_time(
     system: System, change: Change, guard: int, rows: Sequence[Kept], known: Array
 ) -> float:
-    """How long before its event a guard was already no more than what is known of it.
+    """Time [s] before its event at which a guard is no more than its own error.
 
-    rows: the steps of its mode. known: what is known of each component of the state.
+    rows: the steps of its mode. known: the error of each component of the state.
     """
     mode, t, y = system.modes[change.mode_before], change.time, change.before
     f, fall = slope(mode), system.guards(change.mode_before)[guard].g
@@ -97,30 +96,29 @@ def _untimed(
             for pace in (last * part for part in SPACED)
         )
         clear = [at for at, _, there in rows if g(at, there) > DIP * room]
-        return _within(earlier, room, t, t - max(clear, default=begin))
+        return _time_below(earlier, room, t, t - max(clear, default=begin))
     except (ArithmeticError, ValueError, LinAlgError):  # it may not be defined beyond its zero
         return t - begin
 
 
-def unread(scene: Scene, record: Trajectory, event: Event, room: float) -> float:
-    """By how much [s] an event may be off that no guard tells: a passage through zero, read from
-    the record.
+def lateness(scene: Scene, record: Trajectory, event: Event, room: float) -> float:
+    """Error [s] of a passage through zero that is read from the record, and has no guard.
 
-    room: what is known of its quantity.
+    room: the error of its quantity.
     """
     u = event.falling(observe(scene, record, event.quantity))
     room = max(room, TOLERANCE * worst(np.abs(u)))
-    small, off = still(scene, record, event.quantity), 0.0
+    small, error = still(scene, record, event.quantity), 0.0
     for _, times, values in pieces(record, u, scene.corners()):
         for t, curve in passing(times, values, small):
             if curve is not None:
                 lasted = t - float(record.times[0])
-                off = max(off, _within(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
-    return off
+                error = max(error, _time_below(lambda s, t=t, u=curve: u(t - s), room, t, lasted))
+    return error
 
 
-def _within(g: Callable[[float], float], room: float, t: float, most: float) -> float:
-    """How long before its zero at t a function was already as small as that, to a factor of two."""
+def _time_below(g: Callable[[float], float], room: float, t: float, most: float) -> float:
+    """Time [s] before its zero at t for which |g| is no more than `room`, to a factor of two."""
     back = math.ulp(t)
     while back < most and abs(g(back)) <= DIP * room:
         back *= 2.0

@@ -27,7 +27,7 @@ from .reading import Size, size
 def as_the_file_says(
     case: Case, answer: Answer, generated: Mechanism, motion: Trajectory, own: float
 ) -> Iterator[Check]:
-    """All of them; `answer` is asked for its start, and the generated mechanism for its forces."""
+    """Yields the checks of what the file prescribes, of its constraints and of its start."""
     lengths = size_of(case)
     large = size(case.scene.frame, motion, lengths, case.duration)
     yield from prescribed(case, motion, generated, large, own)
@@ -52,16 +52,16 @@ SEED = 8  # of rates that make a force's power tell all of it: any
 def prescribed(
     case: Case, motion: Trajectory, generated: Mechanism, size: Size, own: float
 ) -> Iterator[Check]:
-    """Drives, blades, points and forces against their laws; own: what the motion is known to.
+    """Checks drives, blades, points and forces against their laws; own: the motion's own error.
 
     A drive is held by its rate, so its place sums up the integrator's errors, as all places do.
     """
-    if found := [*_drives(case, motion, size), *_blades(case, motion, size)]:
-        yield Check("drives follow their laws", worst(found), own, measured=True)
-    if found := [*_points(case, generated, size)]:
-        yield Check("driven points follow their laws", worst(found), ALGEBRA)
-    if found := [*_forces(case, motion, generated)]:
-        yield Check("forces follow their laws", worst(found), ALGEBRA)
+    if errors := [*_drives(case, motion, size), *_blades(case, motion, size)]:
+        yield Check("drives follow their laws", worst(errors), own, measured=True)
+    if errors := [*_points(case, generated, size)]:
+        yield Check("driven points follow their laws", worst(errors), ALGEBRA)
+    if errors := [*_forces(case, motion, generated)]:
+        yield Check("forces follow their laws", worst(errors), ALGEBRA)
 
 
 def integral(law: Signal, times: Array) -> Array:
@@ -75,21 +75,21 @@ def integral(law: Signal, times: Array) -> Array:
     values = law.at(at.ravel()).reshape(*at.shape, -1)
     areas = np.einsum("k,j,kja->ka", np.diff(edges) / 2, w, values)
     sums = np.vstack([np.zeros((1, areas.shape[1])), np.cumsum(areas, axis=0)])
-    found: Array = sums[np.searchsorted(edges, times)]
-    return found
+    integrals: Array = sums[np.searchsorted(edges, times)]
+    return integrals
 
 
 def _drives(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
-    """For each driven freedom: the errors of its way since the start and of its rate, relative."""
+    """Yields relative errors of each driven freedom: of its way since the start and its rate."""
     known = table(case.scene)
     for quantity, law in case.scene.drives.items():
         part, _, rate = quantity.rpartition(".")
         name = f"{part}.{PLACE_OF.get(rate, rate.removesuffix('_dot'))}"
         place, skew = observe(case.scene, motion, name), _skewness(case, part)
-        gone = integral(law, motion.times)[:, 0]
-        yield size.apart(known[name].unit, place - place[0], gone) / skew
+        shift = integral(law, motion.times)[:, 0]
+        yield size.difference(known[name].unit, place - place[0], shift) / skew
         own = observe(case.scene, motion, quantity)
-        yield size.apart(known[quantity].unit, own, law.at(motion.times)[:, 0]) / skew
+        yield size.difference(known[quantity].unit, own, law.at(motion.times)[:, 0]) / skew
 
 
 def _skewness(case: Case, part: str) -> float:
@@ -102,26 +102,26 @@ def _skewness(case: Case, part: str) -> float:
 
 
 def _blades(case: Case, motion: Trajectory, size: Size) -> Iterator[float]:
-    """The speed along a blade has no place: it is its law at every sample."""
+    """Yields relative errors of prescribed speeds along blades, at every sample."""
     for name, edge in case.scene.constraints.items():
         if (law := edge.speed) is not None:
             speed = observe(case.scene, motion, f"{name}.speed")
-            yield size.apart("m/s", speed, law.at(motion.times)[:, 0])
+            yield size.difference("m/s", speed, law.at(motion.times)[:, 0])
 
 
 def _points(case: Case, generated: Mechanism, size: Size) -> Iterator[float]:
-    """Where the mechanism has the ground's points that move, and how fast: at every sample."""
+    """Yields relative errors of the places and velocities of driven points of the ground."""
     for name, point in case.scene.points.items():
         if not point.driven:
             continue
         wanted = point.states(case.times)
         read = np.array([generated.driven_point(name, t) for t in case.times.tolist()])
         for unit, columns in zip(("m", "m/s"), np.hsplit(read - wanted, 2), strict=True):
-            yield size.apart(unit, columns, 0.0 * columns)
+            yield size.difference(unit, columns, 0.0 * columns)
 
 
 def _forces(case: Case, motion: Trajectory, generated: Mechanism) -> Iterator[float]:
-    """The power of what acts by a law, at the motion's places and any rates.
+    """Yields relative errors of the power of what acts by a law, at random rates.
 
     Any, because a force across the motion has none there.
     """
@@ -136,8 +136,8 @@ def _forces(case: Case, motion: Trajectory, generated: Mechanism) -> Iterator[fl
         q, v = base.place(at | {name: (motion.reactions[name][i],) for name in inner})
         v = random.uniform(-1.0, 1.0, len(v))
         poses = base.poses(t, q, v)
-        for name, found in states.items():
-            found.append(poses[name])
+        for name, samples in states.items():
+            samples.append(poses[name])
         for name, power in generated.powers(t, q, v).items():
             theirs[name].append(power)
     moved = Trajectory(motion.times, {n: np.array(s, float) for n, s in states.items()}, {})
@@ -153,13 +153,13 @@ def _forces(case: Case, motion: Trajectory, generated: Mechanism) -> Iterator[fl
 
 
 def constraint_checks(case: Case, motion: Trajectory, size: Size, own: float) -> Iterator[Check]:
-    """How far joints come apart or turn where they may not, and what slips that must not."""
-    gaps = [size.apart("m", gap, 0.0) for gap in _gaps(case, motion)]
+    """Checks gaps of joints, turns that they do not allow, and slips of what must not slip."""
+    gaps = [size.difference("m", gap, 0.0) for gap in _gaps(case, motion)]
     seen, joints = motion_of(case.scene, motion), case.scene.joints.values()
-    turned = [size.apart("rad", _turned(joint, seen), 0.0) for joint in joints]
+    turned = [size.difference("rad", _misalignment(joint, seen), 0.0) for joint in joints]
     if gaps:
         yield Check("joints hold", worst([*gaps, *turned]), own, measured=True)
-    if slips := [size.apart("m/s", slip, 0.0) for slip in _slips(case, motion)]:
+    if slips := [size.difference("m/s", slip, 0.0) for slip in _slips(case, motion)]:
         yield Check("nothing slips", worst(slips), own, measured=True)
 
 
@@ -175,8 +175,8 @@ def _rolling(case: Case) -> list[str]:
     return [name for name, contact in case.scene.contacts.items() if not contact.switches]
 
 
-def _turned(joint: Joint, motion: Motion) -> Array:
-    """(N,) [rad] how far the second part is from where the freedoms of the joint take it."""
+def _misalignment(joint: Joint, motion: Motion) -> Array:
+    """(N,) Angle [rad] of the second part from the attitude that the joint's turns give it."""
     return _in_space(joint, motion) if joint.frame is SPACE else _in_plane(joint, motion)
 
 
@@ -184,12 +184,12 @@ def _in_plane(joint: Joint, motion: Motion) -> Array:
     bodies = [motion.bodies[at.body] for at in joint.refers() if at.body in motion.bodies]
     if joint.turns or not all(body.turns for body in bodies):
         return np.zeros_like(motion.trajectory.times)
-    off: Array = np.remainder(joint.turn(motion)[0] - joint.angle + np.pi, 2 * np.pi) - np.pi
-    return off
+    angle: Array = np.remainder(joint.turn(motion)[0] - joint.angle + np.pi, 2 * np.pi) - np.pi
+    return angle
 
 
 def _in_space(joint: Joint, motion: Motion) -> Array:
-    """The turns that the joint reads, one after the other, have to make the attitude."""
+    """(N,) Angle [rad] between the attitude and the product of the turns that the joint reads."""
     bodies = [motion.bodies[at.body] for at in joint.refers() if at.body in motion.bodies]
     if not joint.holds_attitude or not all(body.turns for body in bodies):
         return np.zeros_like(motion.trajectory.times)
@@ -202,7 +202,7 @@ def _in_space(joint: Joint, motion: Motion) -> Array:
 
 
 def _slips(case: Case, motion: Trajectory) -> Iterator[Array]:
-    """Across blades, and of what only rolls."""
+    """Yields the slips (N,) [m/s] across blades, and of what only rolls."""
     for name in (*case.scene.constraints, *_rolling(case)):
         yield observe(case.scene, motion, f"{name}.slip")
 
@@ -218,17 +218,17 @@ NEAR = math.pi / 2  # rad, or as many sizes: what is farther is not what `near` 
 
 def started(case: Case, answer: Answer, motion: Trajectory, lengths: float) -> Iterator[Check]:
     """Checks all of `initial`, turns of angles too, and of `near`. lengths [m]: on the bodies."""
-    first = _first(case, answer, motion)
+    first = _start_motion(case, answer, motion)
     begins = Trajectory(first.times[:1], {b: rows[:1] for b, rows in first.states.items()}, {})
     large = size(case.scene.frame, begins, lengths, case.duration)
-    if found := [*_given(case, first, large)]:
-        yield Check("starts as it is given", worst(found), GIVEN)
-    if near := [*_near(case, first, lengths)]:
+    if errors := [*_initial_errors(case, first, large)]:
+        yield Check("starts as it is given", worst(errors), GIVEN)
+    if near := [*_near_errors(case, first, lengths)]:
         yield Check("starts near what is said", worst(near), NEAR)
 
 
-def _first(case: Case, answer: Answer, motion: Trajectory) -> Trajectory:
-    """The motion; or the start by itself, if something happens at it.
+def _start_motion(case: Case, answer: Answer, motion: Trajectory) -> Trajectory:
+    """The motion, or the start alone if an event happens at it.
 
     The first sample is then as it is afterwards.
     """
@@ -239,13 +239,13 @@ def _first(case: Case, answer: Answer, motion: Trajectory) -> Trajectory:
     return Trajectory(np.zeros(1), {b: np.array([poses[b]], float) for b in motion.states}, {})
 
 
-def _given(case: Case, motion: Trajectory, large: Size) -> Iterator[float]:
+def _initial_errors(case: Case, motion: Trajectory, large: Size) -> Iterator[float]:
     seen, known = motion_of(case.scene, motion), table(case.scene)
     for name, start in case.initial.items():
         for field, value in start.given.items():
             if (quantity := known.get(f"{name}.{field}")) is not None:
                 read = observe(case.scene, motion, quantity.name)[0]
-                yield large.apart(quantity.unit, float(read), value)
+                yield large.difference(quantity.unit, float(read), value)
         if name in case.scene.bodies:
             yield from _of_body(case, name, start, seen, large)
         elif start.attitude is not None or "omega_1" in start.given:
@@ -255,48 +255,48 @@ def _given(case: Case, motion: Trajectory, large: Size) -> Iterator[float]:
 def _of_body(case: Case, name: str, start: Placement, seen: Motion, large: Size) -> Iterator[float]:
     d = case.scene.frame.dimension
     for point, at in start.points.items():
-        yield large.apart("m", seen.point(Anchor(name, point))[0, :d], np.array(at))
+        yield large.difference("m", seen.point(Anchor(name, point))[0, :d], np.array(at))
     for point in start.on:
-        yield from _stands(case, Anchor(name, point), seen, large)
+        yield from _standing_errors(case, Anchor(name, point), seen, large)
     if start.attitude is not None:
         read = seen.trajectory.states[name][0, SPACE.attitude]
         yield float(angle_between(np.array(start.attitude), read))
     if start.polar is not None:
         from_, length, direction = start.polar
         x, y = (seen.point(Anchor(name, "center")) - seen.point(anchor(from_)))[0, :2].tolist()
-        yield large.apart("m", math.hypot(x, y), length)
+        yield large.difference("m", math.hypot(x, y), length)
         there = seen.point(Anchor(name, "center"))[0, :2]
         rounded = EPS * float(np.max(np.abs(there))) / length  # rad, of a place far from the origin
-        off = abs(math.remainder(math.atan2(y, x) - direction, math.tau))
-        yield 0.0 if off <= rounded else off - rounded  # and of NaN it is NaN
+        angle = abs(math.remainder(math.atan2(y, x) - direction, math.tau))
+        yield 0.0 if angle <= rounded else angle - rounded  # and of NaN it is NaN
 
 
-def _stands(case: Case, at: Anchor, seen: Motion, large: Size) -> Iterator[float]:
-    """A point on its plane, or on its side, does not slip; without a contact it is the floor's."""
+def _standing_errors(case: Case, at: Anchor, seen: Motion, large: Size) -> Iterator[float]:
+    """Yields errors of gap and slip of a point on its plane, or without a contact on the floor."""
     pressing = {**case.scene.touching, **case.scene.pairs}
     mine = [contact for contact in pressing.values() if contact.at == at]
     if not mine:
         _, y, vx, vy = seen.point(at)[0].tolist()
-        yield large.apart("m", y, 0.0)
-        yield large.apart("m/s", math.hypot(vx, vy), 0.0)
+        yield large.difference("m", y, 0.0)
+        yield large.difference("m/s", math.hypot(vx, vy), 0.0)
     for contact in mine[:1]:
-        yield large.apart("m", contact.observe(seen, "gap")[:1], 0.0)
-        yield large.apart("m/s", contact.observe(seen, "slip")[:1], 0.0)
+        yield large.difference("m", contact.observe(seen, "gap")[:1], 0.0)
+        yield large.difference("m/s", contact.observe(seen, "slip")[:1], 0.0)
 
 
 def _of_ball(case: Case, name: str, start: Placement, seen: Motion, large: Size) -> Iterator[float]:
-    """Its second part's attitude and rate against the first, in the axes of the second."""
+    """Yields errors of a ball's attitude and rate against the first part, in the second's axes."""
     (a, spin_a), (b, spin_b) = (axes_of(seen, at.body) for at in case.scene.joints[name].refers())
     between = product(inverse(a[0]), b[0])
     if start.attitude is not None:
         yield float(angle_between(np.array(start.attitude), between))
     for i, spin in enumerate(spin_b[0] - turned(inverse(between), spin_a[0])):
         if (given := start.given.get(f"omega_{i + 1}")) is not None:
-            yield large.apart("rad/s", float(spin), given)
+            yield large.difference("rad/s", float(spin), given)
 
 
-def _near(case: Case, motion: Trajectory, lengths: float) -> Iterator[float]:
-    """How far the start is from each thing that is said, in rad or sizes.
+def _near_errors(case: Case, motion: Trajectory, lengths: float) -> Iterator[float]:
+    """Yields the distance of the start from each entry of `near`, in rad or sizes.
 
     An angle in the plane counts its turns; in space what is said of one is told by its attitude.
     """

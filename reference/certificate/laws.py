@@ -23,7 +23,7 @@ from ..mechanism.modes.spatial_mode import SpatialMultibody
 from ..motion.bodies import Answer
 from ..system import Array, Mode
 from .agreement import Check, gravest, worst
-from .reaction_check import lost, reacting, unexplained
+from .reaction_check import reactions, rounding_error, unexplained
 
 LAW = 1e-12  # of the largest term: the laws are algebra, only rounding may differ
 DRIFT = 10  # roundings a step: more than that is no drift, but another drive
@@ -59,7 +59,7 @@ class Scale:
         return self.base.terms(t, *place)[0], worst((forces + self._held(t, *place)) * self.speeds)
 
     def _held(self, t: float, q: Array, v: Array) -> Array:
-        """(n,) what holds it; nothing where a spring that is slack has no direction."""
+        """(n,) Forces of what holds the mode; 0 where a slack spring has no direction."""
         try:
             multipliers = self.base.solve(t, q, v)[1]
         except NoDirection:
@@ -83,19 +83,19 @@ class Scale:
         return worst(self.speeds) / self.duration
 
     def turn(self, mode: Mode, t: float, q: Array, v: Array) -> float:
-        """In space the fastest turn of a body [rad/s]; in the plane axes stay what they are."""
+        """Largest angular speed [rad/s] of a body in space; in the plane the axes do not turn."""
         rates = self.base.place(mode.poses(t, q, v))[1]
         spatial = isinstance(self.base, SpatialMultibody)
         return worst(np.abs(rates[self.base.where.turning])) if spatial else 0.0
 
     def idle(self, mode: Mode, t: float, q: Array, n: int) -> Array:
-        """(n,) how fast each rate is with which no body is faster than in the whole motion."""
+        """(n,) Largest value of each rate alone that moves no body faster than the motion does."""
         with np.errstate(divide="ignore"):
-            found = np.min(self.speeds / self._of_each(mode, t, q, n), axis=1)
-        return np.where(np.isfinite(found), found, 1.0)
+            rates = np.min(self.speeds / self._of_each(mode, t, q, n), axis=1)
+        return np.where(np.isfinite(rates), rates, 1.0)
 
     def turned(self, mode: Mode, t: float, q: Array, n: int) -> Array:
-        """(n,) how far each coordinate alone goes until a body of space turns by 45°."""
+        """(n,) Change of each coordinate alone that turns a body of space by 45°."""
         if not isinstance(self.base, SpatialMultibody):
             return np.full(n, math.inf)
         turns = self._of_each(mode, t, q, n)[:, self.base.where.turning]
@@ -120,7 +120,7 @@ class Scale:
         return all(abs(np.dot(x, y)) > EIGHTH for x, y in zip(a, b, strict=True))
 
     def accelerated(self, mode: Mode, times: Array, y: Array) -> float:
-        """The largest of them at some samples of a motion, and of the accelerations.
+        """The largest acceleration at some samples of a motion, or that one force gives alone.
 
         A force may be 0 at one instant, but for its rounding.
         """
@@ -133,16 +133,16 @@ class Scale:
 
 
 def laws(
-    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory, apart: float
+    answer: Answer, generated: Mechanism, times: Array, marched: Trajectory, error: float
 ) -> Iterator[Check]:
     """The laws of every mode along its own part of the motion; the worst of each.
 
-    marched: the motion of the bodies at every step. apart: of its size, how far another integrator
+    marched: the motion of the bodies at every step. error: of its size, how far another integrator
     is from it: so much a rate may have drifted.
     """
-    found: dict[str, list[Check]] = {}
+    checks: dict[str, list[Check]] = {}
     followed, written = answer.followed, answer.system is not generated
-    drift = max(DRIFT * float(np.finfo(float).eps) * followed.steps, apart)
+    drift = max(DRIFT * float(np.finfo(float).eps) * followed.steps, error)
     scale = Scale(generated.base, _speeds(generated.base, marched), float(np.ptp(times)), drift)
     for name in dict.fromkeys(followed.modes):
         mine, mode = np.array(followed.modes) == name, answer.system.modes[name]
@@ -151,8 +151,8 @@ def laws(
             *of_mode(mode, scale, *part, written=written),
             *eliminated(mode, scale, *part),
         ):
-            found.setdefault(check.name, []).append(check)
-    yield from map(gravest, found.values())
+            checks.setdefault(check.name, []).append(check)
+    yield from map(gravest, checks.values())
 
 
 def _speeds(base: Multibody, marched: Trajectory) -> Array:
@@ -176,7 +176,7 @@ def _speeds(base: Multibody, marched: Trajectory) -> Array:
 
 
 def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) -> Iterator[Check]:
-    """The explicit accelerations against each formalism along the motion.
+    """Checks the explicit accelerations against each formalism along the motion.
 
     Differences are relative to the largest term: of the accelerations and powers themselves, or of
     those that each force alone would give, since at rest the forces cancel but for rounding.
@@ -184,7 +184,7 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     bound = len(mode.f_a(0.0, mode.parted(y[0])[0])) > 0
     sizes, powers, derived, balances, unbalanced, forces = [], [], [], [], [], []
     drifted: list[float] = []  # the power of what holds, on what a rate is off: judged as drift
-    by_one: list[float] = []  # of the Lagrangian, where there is a V and nothing binds
+    by_lagrangian: list[float] = []  # of the Lagrangian, where there is a V and nothing binds
     for t, row in zip(times.tolist(), y, strict=True):
         reached(t)
         q, v = mode.parted(row)
@@ -206,7 +206,7 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
         else:
             derived.append(worst(np.abs(lagrange.accelerations(mode, t, q, v) - a)))
             if lagrange.of_potential(mode, t, q, mode.rates(t, q, v)).any():
-                by_one.append(worst(np.abs(lagrangian.unbalanced(mode, t, q, v, a))))
+                by_lagrangian.append(worst(np.abs(lagrangian.unbalanced(mode, t, q, v, a))))
         balances.append(abs(float(np.sum(terms))))
         if written:
             unbalanced.append(newton_euler.balance(mode, t, q, v, a))
@@ -214,34 +214,34 @@ def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) 
     size, power = worst(sizes) or 1.0, worst(powers) or 1.0
     by = "Lagrange with multipliers (2.60)" if bound else "Lagrange (2.44)"
     rounding = max(LAW, OF_MULTIPLIERS * _rounding(mode, 1.0))
-    apart = worst(derived) / size
-    if bound and apart > rounding:
+    error = worst(derived) / size
+    if bound and error > rounding:
         at = int(np.argmax(derived))
         rounding = max(rounding, _held_together(mode, float(times[at]), *mode.parted(y[at])))
-    yield Check(f"accelerations by {by}", apart, rounding)
-    if by_one:
-        yield Check("Lagrangian (2.51), (2.52)", worst(by_one) / size, LAW)
-    beside = min(_beside(worst(drifted) / power), max(LAW, scale.drift))
+    yield Check(f"accelerations by {by}", error, rounding)
+    if by_lagrangian:
+        yield Check("Lagrangian (2.51), (2.52)", worst(by_lagrangian) / size, LAW)
+    beside = min(_drift_bound(worst(drifted) / power), max(LAW, scale.drift))
     yield Check("power balance (2.51)", worst(balances) / power, beside)
     if written:
-        least = SMALL * worst(one.largest for one in unbalanced)
-        apart = worst(one.share(least) for one in unbalanced)
-        yield Check("Newton-Euler balance (2.23), (2.27)", apart, LAW)
-    known = [apart for apart in forces if apart is not None]
+        least = SMALL * worst(balance.largest for balance in unbalanced)
+        error = worst(balance.share(least) for balance in unbalanced)
+        yield Check("Newton-Euler balance (2.23), (2.27)", error, LAW)
+    known = [error for error in forces if error is not None]
     if known:  # a system need not know its reactions
         yield Check("reactions by Newton-Euler", worst(known), LAW)
 
 
 def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Check]:
-    """The explicit accelerations against what needs no multipliers, where the motion never was.
+    """Checks the explicit accelerations against formalisms without multipliers, off the motion.
 
     Relative to the accelerations, or to what each force alone would give. The ingredients tell
     which apply: nothing is said of those that do not. Masses that differ by many powers of ten are
     multiplied with each other there, as multipliers need not: the bound tells what that loses.
     """
-    found: dict[str, list[float]] = {}
+    errors: dict[str, list[float]] = {}
     bound, least = LAW, scale.accelerated(mode, times, y)
-    for t, q, v in drawn(mode, times, y, BESIDE, scale):
+    for t, q, v in states(mode, times, y, BESIDE, scale):
         by = dependent(mode, t, q, len(v))
         if by is None or not (condition := by.condition(t, q)) < SINGULAR:
             continue
@@ -250,13 +250,13 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
         size = worst([*np.abs(a), scale.alone(mode, t, q, v), least]) or 1.0
         for name, accelerations in ELIMINATED.items():
             if (other := accelerations(mode, t, q, v)) is not None:
-                found.setdefault(name, []).append(worst(np.abs(other - a)) / size)
-    for name, apart in found.items():
-        yield Check(f"accelerations by {name}", worst(apart), bound)
+                errors.setdefault(name, []).append(worst(np.abs(other - a)) / size)
+    for name, values in errors.items():
+        yield Check(f"accelerations by {name}", worst(values), bound)
 
 
-def _beside(drift: float) -> float:
-    """LAW, or a power of ten above twice a drift that is more than half of it."""
+def _drift_bound(drift: float) -> float:
+    """The larger of LAW and the next power of ten above twice the drift."""
     return max(LAW, 10.0 ** math.ceil(math.log10(2 * drift))) if drift > 0.0 else LAW
 
 
@@ -281,19 +281,19 @@ def _held_together(mode: Mode, t: float, q: Array, v: Array) -> float:
     rows = np.asarray(constraint_rows(mode, t, q, len(v)), dtype=np.float64)
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     condition = float(np.linalg.cond(rows / np.where(sizes > 0.0, sizes, 1.0))) ** 2
-    return lost(condition) if condition < SINGULAR else 0.0
+    return rounding_error(condition) if condition < SINGULAR else 0.0
 
 
 def _other_forces(
     mode: Mode, cut_free: Mapping[str, float], t: float, q: Array, v: Array
 ) -> float | None:
-    """Relative to the largest; friction that slides is an applied force, and no cut finds it."""
+    """Relative difference of the reactions of both; sliding friction is no reaction of a cut."""
     written = mode.reactions(t, q, v)
     if not cut_free.keys() & written.keys():
         return None
     size = worst(abs(force) for force in cut_free.values()) or 1.0
-    apart = worst(abs(cut_free[name] - written[name]) for name in written if name in cut_free)
-    return unexplained(apart / size, size, (reacting(mode), t, q, v))
+    error = worst(abs(cut_free[name] - written[name]) for name in written if name in cut_free)
+    return unexplained(error / size, size, (reactions(mode), t, q, v))
 
 
 # Random states beside a motion, such as the mode allows: what the motion itself never shows.
@@ -310,10 +310,10 @@ CLOSED = 1e-13  # of the largest coordinate, or of 1: f is 0 but for rounding
 TURNS = 60  # of the fixed point: it gains a digit in four, or the way is too long
 
 
-def drawn(
+def states(
     mode: Mode, times: Array, y: Array, count: int, scale: Scale | None = None
 ) -> Iterator[tuple[float, Array, Array]]:
-    """t, q (m,), v (n,): as many as asked for, beside samples y (N, ·) of a motion in this mode.
+    """Random t, q (m,) and v (n,) that the mode allows, beside samples y (N, ·) of its motion.
 
     What never moves in the motion moves as the scale says, or 1 without one. A rotor's own turns
     keep no other coordinate near: each goes as far as it may by itself.
@@ -339,7 +339,7 @@ def drawn(
                 break
 
 
-def moved(mode: Mode, t: float, q: Array, way: Array) -> Array | None:
+def midpoint_step(mode: Mode, t: float, q: Array, way: Array) -> Array | None:
     """q of one step of the implicit midpoint rule along q̇ = N · way, None where it has none.
 
     The rule keeps the length of a quaternion, however long the step is.
@@ -358,14 +358,14 @@ def moved(mode: Mode, t: float, q: Array, way: Array) -> Array | None:
 def _closed(mode: Mode, t: float, q: Array, way: Array) -> Array | None:
     """Where f = 0, by Newton's method from beside q; None if that does not get there."""
     try:
-        place = moved(mode, t, q, way)
+        place = midpoint_step(mode, t, q, way)
         for _ in range(TURNS):
             if place is None or not np.all(np.isfinite(place)):
                 return None
             f = np.asarray(mode.f(t, place), dtype=np.float64)
             if np.max(np.abs(f), initial=0.0) <= CLOSED * max(1.0, float(np.max(np.abs(place)))):
                 return place if _answers(mode, t, place, way) else None
-            place = moved(mode, t, place, -np.linalg.pinv(_slopes(mode, t, place, way)) @ f)
+            place = midpoint_step(mode, t, place, -np.linalg.pinv(_slopes(mode, t, place, way)) @ f)
     except (ArithmeticError, np.linalg.LinAlgError):
         pass  # such as a spring without length: another state will do
     return None

@@ -21,7 +21,7 @@ from ...cases.scene.pair import Pair
 from ...cases.trajectory import OMEGA, VX, Array, Trajectory
 from ..motion.bodies import Answer, accelerations
 from ..motion.follow import Change
-from ..motion.zeno import left
+from ..motion.zeno import to_limit
 from ..system import instant
 from .agreement import Check, worst
 from .reading import Size
@@ -52,8 +52,8 @@ class Side:
     contact: Contact | Pair | None = None
     line: tuple[Anchor, ...] = ()  # the ends of a rope
 
-    def on(self, motion: Motion) -> NDArray[np.bool_]:
-        """(N,) whether it could be touched: not beside a face, nor where a foot swings through."""
+    def touchable(self, motion: Motion) -> NDArray[np.bool_]:
+        """(N,) Whether it can be touched: not beside a face, nor where a foot swings through."""
         if isinstance(self.contact, Pair) and self.contact.face:
             return ~self.contact.beyond(motion)
         through = isinstance(self.contact, Contact) and self.contact.ahead_of is not None
@@ -62,61 +62,61 @@ class Side:
 
 def sides(scene: Scene) -> Iterator[Side]:
     """Yields each contact that may open, pair, rope, and stop of a joint."""
-    for one in (*scene.touching.values(), *scene.pairs.values()):
-        if one.switches:
-            bodies = _on(one)
-            push, gap, rate = f"{one.name}.normal", partial(_apart, one), partial(_opens, one)
-            yield Side(one.name, push, "m", one.restitution, gap, rate, bodies, contact=one)
+    for c in (*scene.touching.values(), *scene.pairs.values()):
+        if c.switches:
+            bodies = _bodies(c)
+            push, gap, rate = f"{c.name}.normal", partial(_gap, c), partial(_gap_rate, c)
+            yield Side(c.name, push, "m", c.restitution, gap, rate, bodies, contact=c)
     for limit in scene.limits():
         line = limit.refers()  # of a rope; a stop has a joint
         ends = tuple(at.body for at in line if at.body in scene.bodies)
         for k, side in enumerate(limit.sides):
             unit = "m" if line else "rad"
             name = f"{limit.name}.{side}"
-            gap, rate = partial(_left, limit, k), partial(_grows, limit, side)
+            gap, rate = partial(_limit_gap, limit, k), partial(_limit_rate, limit, side)
             yield Side(name, name, unit, limit.back, gap, rate, ends, line=line)
 
 
-def _on(one: Contact | Pair) -> tuple[str, ...]:
-    """The bodies that it touches."""
-    return (one.body, one.touched) if isinstance(one, Pair) else (one.body,)
+def _bodies(contact: Contact | Pair) -> tuple[str, ...]:
+    """Names of the bodies that a contact touches."""
+    return (contact.body, contact.touched) if isinstance(contact, Pair) else (contact.body,)
 
 
-def _apart(one: Contact | Pair, motion: Motion) -> Array:
-    return one.observe(motion, "gap")
+def _gap(contact: Contact | Pair, motion: Motion) -> Array:
+    return contact.observe(motion, "gap")
 
 
-def _opens(one: Contact | Pair, motion: Motion) -> Array:
-    if isinstance(one, Pair):
-        return one.slip_and_gap_rate(motion)[1]
-    (x, y), (_, _, vx, vy) = one.plane.normal, motion.point(one.at).T
+def _gap_rate(contact: Contact | Pair, motion: Motion) -> Array:
+    if isinstance(contact, Pair):
+        return contact.slip_and_gap_rate(motion)[1]
+    (x, y), (_, _, vx, vy) = contact.plane.normal, motion.point(contact.at).T
     return x * vx + y * vy
 
 
-def _left(limit: Limit, k: int, motion: Motion) -> Array:
+def _limit_gap(limit: Limit, k: int, motion: Motion) -> Array:
     return list(limit.gaps(motion))[k]
 
 
-def _grows(limit: Limit, side: str, motion: Motion) -> Array:
+def _limit_rate(limit: Limit, side: str, motion: Motion) -> Array:
     return limit.sides[side][0] * limit.rate(motion)
 
 
 def one_sided_checks(
     case: Case, answer: Answer, motion: Trajectory, marched: Trajectory, size: Size, own: float
 ) -> Iterator[Check]:
-    """Gaps at every step, forces at the samples, and blows; own: what the motion is known to."""
+    """Checks gaps at every step, forces at the samples, and blows; own: the motion's own error."""
     scene, changes = case.scene, answer.followed.changes
     every, seen = [*sides(scene)], motion_of(scene, motion)
     heaviest = max(body.mass for body in scene.bodies.values())
     least = LEAST * heaviest * size.speed / case.duration
     rubbing = [*_rubbing(scene, every, motion, least)]
-    rubbed = [worst(one.off(seen, size)) / one.largest for one in rubbing]
+    rubbed = [worst(group.errors(seen, size)) / group.largest for group in rubbing]
     for change in changes if rubbing else ():
-        before = _before(scene, answer, change)
-        rubbed += [one.at(before, change, size) for one in rubbing]
+        before = _motion_before(scene, answer, change)
+        rubbed += [group.error_at(before, change, size) for group in rubbing]
     if rubbed:
         yield Check("friction is the file's", worst(rubbed), FORCES)
-    if free := [*_told(case.scene, answer, motion)]:
+    if free := [*_free_body_errors(case.scene, answer, motion)]:
         yield Check("contacts move free bodies by (2.22)", worst(free), FORCES)
     if ends := [*_at_their_length(scene, answer, size)]:
         yield Check("springs act from their length on", worst(ends), BLOWS)
@@ -124,7 +124,7 @@ def one_sided_checks(
         return
     steps = motion_of(scene, marched)
     passed = [
-        worst(np.maximum(0.0, -side.gap(steps))[side.on(steps)]) / size.of(side.unit)
+        worst(np.maximum(0.0, -side.gap(steps))[side.touchable(steps)]) / size.of(side.unit)
         for side in every
     ]
     yield Check("nothing passes what holds it", worst(passed), own, measured=True)
@@ -132,23 +132,23 @@ def one_sided_checks(
         pressing = worst(_pressing(known, seen, size))
         yield Check("what presses touches", pressing, own, measured=True)
     blows = [_Blow.of(scene, answer, first, last, size) for first, last in _at_once(case, changes)]
-    if told := [each for blow in blows for each in blow.off(every)]:
-        yield Check("blows are the file's", worst(told), BLOWS)
+    if errors := [error for blow in blows for error in blow.errors(every)]:
+        yield Check("blows are the file's", worst(errors), BLOWS)
 
 
 def _at_their_length(scene: Scene, answer: Answer, size: Size) -> Iterator[float]:
-    """Yields how far springs of one side are from their rest length where that begins or ends."""
+    """Yields the distances of one-sided springs from their rest length where they switch."""
     springs = {spring.name: spring for spring in of(Spring, scene.forces.values()) if spring.only}
     for change in answer.followed.changes:
         name, _, word = (change.name or "").rpartition(" ")
         if name in springs and word in ("tightens", "slackens"):
-            before = _at(scene, answer, change.mode_before, change.time, change.before)
+            before = _motion_at(scene, answer, change.mode_before, change.time, change.before)
             length, _ = before.line(springs[name].a, springs[name].b)
             yield abs(float(length[0]) - springs[name].rest_length) / size.m
 
 
 def _pressing(known: list[Side], seen: Motion, size: Size) -> Iterator[float]:
-    """Yields how far each that presses is from what it presses on; how much it pulls, as a part."""
+    """Yields the relative gap of each side while it presses, and the pull [N] of one that pulls."""
     for side in known:
         force = seen.reaction(side.push)
         largest = worst(np.abs(force)) or 1.0
@@ -159,20 +159,20 @@ def _pressing(known: list[Side], seen: Motion, size: Size) -> Iterator[float]:
 # Where a contact acts on a body and in which directions, by how the body then accelerates.
 
 
-def _told(scene: Scene, answer: Answer, motion: Trajectory) -> Iterator[float]:
+def _free_body_errors(scene: Scene, answer: Answer, motion: Trajectory) -> Iterator[float]:
     """Yields errors of m r̈ = ΣF and J φ̈ = ΣM of bodies that nothing holds but what they touch.
 
-    Of bodies on which no force acts that follows a velocity: theirs is not told by its power.
+    Bodies on which a force acts that follows a velocity are left out: its power is not linear.
     """
     held = {at.body for joint in scene.joints.values() for at in joint.refers()}
     held |= {edge.at.body for edge in scene.constraints.values()}
     touching: list[Contact | Pair] = [*scene.touching.values(), *scene.pairs.values()]
-    for one in touching:
-        if any(name not in motion.reactions for name in _forces(one)):
-            held |= {*_on(one)}
-    told = {body for one in touching for body in _on(one)}
+    for c in touching:
+        if any(name not in motion.reactions for name in _forces(c)):
+            held |= {*_bodies(c)}
+    bodies = {body for c in touching for body in _bodies(c)}
     seen = motion_of(scene, motion)
-    if scene.inner() or not (free := sorted(told - held)):
+    if scene.inner() or not (free := sorted(bodies - held)):
         return
     acts = {body: _acting(scene, seen, body) for body in free}
     moved = (
@@ -182,12 +182,12 @@ def _told(scene: Scene, answer: Answer, motion: Trajectory) -> Iterator[float]:
         body = scene.bodies[name]
         if acting is None:
             continue
-        parts = [acting, *(_touch(one, seen, name) for one in touching if name in _on(one))]
+        parts = [acting, *(_touch(c, seen, name) for c in touching if name in _bodies(c))]
         force, turn = sum(part[:, :2] for part in parts), sum(part[:, 2] for part in parts)
-        wanted = np.stack([body.mass * moved[f"{name}.{field}"] for field in ("ax", "ay")], axis=1)
+        change = np.stack([body.mass * moved[f"{name}.{field}"] for field in ("ax", "ay")], axis=1)
         largest = max(worst(np.abs(part[:, :2]).ravel()) for part in parts)
-        largest = max(largest, worst(np.abs(wanted).ravel())) or 1.0
-        yield worst(np.abs(force - wanted).ravel()) / largest
+        largest = max(largest, worst(np.abs(change).ravel())) or 1.0
+        yield worst(np.abs(force - change).ravel()) / largest
         if body.turns:
             couple = body.moment * moved[f"{name}.alpha"]
             most = max(worst(part[:, 3]) for part in parts)  # it may be nothing of it
@@ -198,8 +198,8 @@ def _acting(scene: Scene, seen: Motion, name: str) -> Array | None:
     """(N, 4) as `_touch` of all but contacts, by the power that they have of unit velocities of
     that body alone; None where one follows its velocity."""
     body, states = scene.bodies[name], seen.trajectory.states
-    found = np.zeros((len(seen.trajectory.times), 4))
-    found[:, :2] = body.mass * np.array(scene.gravity)
+    loads = np.zeros((len(seen.trajectory.times), 4))
+    loads[:, :2] = body.mass * np.array(scene.gravity)
     for force in scene.forces.values():
         if name not in {at.body for at in force.refers()}:
             continue
@@ -217,21 +217,21 @@ def _acting(scene: Scene, seen: Motion, name: str) -> Array | None:
                 )
             if not np.array_equal(ways[0], -ways[1]):
                 return None
-            found[:, k] += ways[0]
-    found[:, 3] = np.abs(found[:, 2])
-    return found
+            loads[:, k] += ways[0]
+    loads[:, 3] = np.abs(loads[:, 2])
+    return loads
 
 
-def _touch(one: Contact | Pair, seen: Motion, name: str) -> Array:
+def _touch(contact: Contact | Pair, seen: Motion, name: str) -> Array:
     """(N, 4) force [N] and moment [N m] of a contact on one of the bodies that it touches, and
     the moment that it would have across its arm."""
-    normal, tangent = (seen.reaction(force)[:, None] for force in _forces(one))
-    if isinstance(one, Pair):
-        place, n = one.place(seen), one.normal_and_gap(seen)[0]
+    normal, tangent = (seen.reaction(force)[:, None] for force in _forces(contact))
+    if isinstance(contact, Pair):
+        place, n = contact.place(seen), contact.normal_and_gap(seen)[0]
     else:
-        n = np.array([one.plane.normal])
-        place = seen.point(one.at)[:, :2] - (seen.bodies[one.body].radius or 0.0) * n
-    sign = 1.0 if name == one.body else -1.0
+        n = np.array([contact.plane.normal])
+        place = seen.point(contact.at)[:, :2] - (seen.bodies[contact.body].radius or 0.0) * n
+    sign = 1.0 if name == contact.body else -1.0
     along = np.stack([n[:, 1], -n[:, 0]], axis=1)  # it has the normal to its left
     force = sign * (normal * n + tangent * along)
     x, y = (place - seen.trajectory.states[name][:, :2]).T
@@ -240,7 +240,7 @@ def _touch(one: Contact | Pair, seen: Motion, name: str) -> Array:
 
 
 def _accelerations(answer: Answer, motion: Trajectory) -> dict[str, Array]:
-    """(N,) of each body at the samples, by quantity, in the mode that the sample is in."""
+    """Accelerations (N,) of each body at the samples by quantity, each in the sample's mode."""
     followed, rows = answer.followed, list[dict[str, float]]()
     for t, phase, y in zip(motion.times.tolist(), followed.phase.tolist(), followed.y, strict=True):
         mode = answer.system.modes[followed.phases[phase]]
@@ -263,7 +263,7 @@ class _Rubbing:
 
     def bounds(self, seen: Motion) -> tuple[Array, Array, Array, Array, Array]:
         """(N,) each (2.89): the slip, the friction, its bounds at rest, its value in motion."""
-        first, slips = self.parts[0], [one.observe(seen, "slip") for one in self.parts]
+        first, slips = self.parts[0], [part.observe(seen, "slip") for part in self.parts]
         if isinstance(first, Joint):
             law, slip = first.dry_friction, slips[0]
             assert law is not None
@@ -271,44 +271,44 @@ class _Rubbing:
             rest = np.full(len(slip), -law.static.forward), np.full(len(slip), law.static.backward)
             return slip, seen.reaction(f"{first.name}.friction"), *rest, moving
         normals, tangents = (
-            np.array([seen.reaction(f"{one.name}.{field}") for one in self.parts])
+            np.array([seen.reaction(f"{part.name}.{field}") for part in self.parts])
             for field in ("normal", "tangent")
         )
         static, kinetic = (
-            np.array([getattr(one, of) for one in self.parts]) @ normals
-            for of in ("static", "kinetic")
+            np.array([getattr(part, coefficient) for part in self.parts]) @ normals
+            for coefficient in ("static", "kinetic")
         )
         # Of what is open the slip is none of friction's.
         slip = np.take_along_axis(np.array(slips), np.argmax(normals, axis=0)[None], axis=0)[0]
         return slip, np.sum(tangents, axis=0), -static, static, -np.sign(slip) * kinetic
 
-    def off(self, seen: Motion, size: Size) -> Array:
-        """(N,) how far friction is from what it is in motion, or beyond its bounds at rest."""
+    def errors(self, seen: Motion, size: Size) -> Array:
+        """(N,) Error of friction: from its value in motion, or beyond its bounds at rest."""
         slip, force, low, high, moving = self.bounds(seen)
         fast = size.rate if isinstance(self.parts[0], Joint) and self.parts[0].turns else size.speed
         at_rest = np.abs(force - np.clip(force, low, high))
         return np.where(np.abs(slip) > SLOW * fast, np.abs(force - moving), at_rest)
 
-    def at(self, before: Motion, change: Change, size: Size) -> float:
-        """Returns that where a mode ends, or how far what breaks loose there was from its bound.
+    def error_at(self, before: Motion, change: Change, size: Size) -> float:
+        """Returns the error where a mode ends, and of the bound where friction breaks loose.
 
         Of the largest force, which may be this one: it may have stuck between two samples. Nothing
         at a corner of a law: forces are told there as they are behind it.
         """
         if change.guard is None:
             return 0.0
-        if any(not {*_forces(one)} <= before.trajectory.reactions.keys() for one in self.parts):
+        if any(not {*_forces(part)} <= before.trajectory.reactions.keys() for part in self.parts):
             return 0.0
-        off = worst(self.off(before, size))
+        error = worst(self.errors(before, size))
         _, force, low, high, _ = self.bounds(before)
-        if change.name in {f"{one.name} slips" for one in self.parts}:
-            off = max(off, float(np.minimum(force - low, high - force)[0]))
-        return off / max(self.largest, worst(np.abs(force)))
+        if change.name in {f"{part.name} slips" for part in self.parts}:
+            error = max(error, float(np.minimum(force - low, high - force)[0]))
+        return error / max(self.largest, worst(np.abs(force)))
 
 
-def _forces(one: Contact | Pair | Joint) -> list[str]:
-    fields = ["friction"] if isinstance(one, Joint) else ["normal", "tangent"]
-    return [f"{one.name}.{field}" for field in fields]
+def _forces(element: Contact | Pair | Joint) -> list[str]:
+    fields = ["friction"] if isinstance(element, Joint) else ["normal", "tangent"]
+    return [f"{element.name}.{field}" for field in fields]
 
 
 def _rubbing(
@@ -317,34 +317,34 @@ def _rubbing(
     """Yields the contacts and joints that rub by (2.89) with forces that are known."""
     groups: dict[tuple[str, str], list[Contact | Pair | Joint]] = {}
     for side in every:
-        one = side.contact
-        if one is not None and not (isinstance(one, Contact) and one.ideal):
-            groups.setdefault((one.body, one.on), []).append(one)
+        element = side.contact
+        if element is not None and not (isinstance(element, Contact) and element.ideal):
+            groups.setdefault((element.body, element.on), []).append(element)
     for joint in scene.joints.values():
         law = joint.dry_friction
         if law is not None and not law.smooth and not law.stribeck:
             groups[joint.name, ""] = [joint]
     for parts in groups.values():
-        names = [name for one in parts for name in _forces(one)]
+        names = [name for element in parts for name in _forces(element)]
         if {*names} <= motion.reactions.keys():
             largest = worst(np.abs(np.concatenate([motion.reactions[name] for name in names])))
             yield _Rubbing(tuple(parts), max(largest, least) or 1.0)
 
 
-def _before(scene: Scene, answer: Answer, change: Change) -> Motion:
+def _motion_before(scene: Scene, answer: Answer, change: Change) -> Motion:
     """The bodies and their forces just before a change."""
-    return _at(scene, answer, change.mode_before, change.time, change.before, forces=True)
+    return _motion_at(scene, answer, change.mode_before, change.time, change.before, forces=True)
 
 
-def _at(
+def _motion_at(
     scene: Scene, answer: Answer, name: str, t: float, y: Array, *, forces: bool = False
 ) -> Motion:
-    """One state in a mode, as elements look at it."""
+    """One state in a mode as a motion of one sample."""
     mode = answer.system.modes[name]
     q, v = mode.parted(y)
     states = {body: np.array([pose], float) for body, pose in mode.poses(t, q, v).items()}
-    told = mode.reactions(t, q, v) if forces else {}
-    reactions = {reaction: np.array([force]) for reaction, force in told.items()}
+    values = mode.reactions(t, q, v) if forces else {}
+    reactions = {reaction: np.array([force]) for reaction, force in values.items()}
     return motion_of(scene, Trajectory(np.array([t]), states, reactions))
 
 
@@ -362,7 +362,7 @@ def _at_once(case: Case, changes: Sequence[Change]) -> Iterator[tuple[Change, Ch
 
 def _span(pile: Array) -> tuple[float, float]:
     """From the last blow but one that was followed of a pile to well behind its limit [s]."""
-    return float(pile[-2]), float(pile[-1]) + 2.0 * left(pile)
+    return float(pile[-2]), float(pile[-1]) + 2.0 * to_limit(pile)
 
 
 @dataclass(frozen=True)
@@ -377,33 +377,33 @@ class _Blow:
 
     @staticmethod
     def of(scene: Scene, answer: Answer, first: Change, last: Change, size: Size) -> "_Blow":
-        before = _at(scene, answer, first.mode_before, first.time, first.before)
-        after = _at(scene, answer, last.mode_after, last.time, last.after)
+        before = _motion_at(scene, answer, first.mode_before, first.time, first.before)
+        after = _motion_at(scene, answer, last.mode_after, last.time, last.after)
         piles = map(_span, answer.followed.endless)
         ends = any(begin <= last.time <= end for begin, end in piles)
         return _Blow(scene, before, after, size, ends)
 
-    def off(self, every: list[Side]) -> Iterator[float]:
-        """How far each side that touches is from what the file says of the blow."""
+    def errors(self, every: list[Side]) -> Iterator[float]:
+        """Yields the error of each touching side against the file's law of impact."""
         before, after = self.before.trajectory.states, self.after.trajectory.states
         if all(np.array_equal(rows, after[name]) for name, rows in before.items()):
             return
-        apart = [abs(side.gap(self.before)[0]) / self.size.of(side.unit) for side in every]
-        if min(apart) > APART and not self.ends:
+        gaps = [abs(side.gap(self.before)[0]) / self.size.of(side.unit) for side in every]
+        if min(gaps) > APART and not self.ends:
             yield self._jump()
         near = [
             side
-            for side, off in zip(every, apart, strict=True)
-            if off <= NEAR and side.on(self.before)[0]
+            for side, gap in zip(every, gaps, strict=True)
+            if gap <= NEAR and side.touchable(self.before)[0]
         ]
         both = self.before, self.after
         rates = {side.name: [float(side.rate(at)[0]) for at in both] for side in near}
         struck = [side for side in near if rates[side.name][0] < -BLOWS * self._speed(side)]
         for side in near:
             closes, opens = rates[side.name]
-            wanted = -side.back * closes if side in struck else 0.0
-            least = 0.0 if self.ends or len(struck) > 1 else wanted
-            most = wanted if struck == [side] else np.inf
+            rebound = -side.back * closes if side in struck else 0.0
+            least = 0.0 if self.ends or len(struck) > 1 else rebound
+            most = rebound if struck == [side] else np.inf
             yield max(0.0, least - opens, opens - most) / self._speed(side)
         if len(near) == 1 == len(struck):
             yield from self._impulse(near[0])
@@ -450,16 +450,16 @@ class _Blow:
 
 
 def _where(side: Side, here: Motion) -> tuple[Array, Array]:
-    """Where it touches, and the normal to the first of its bodies."""
+    """The place of the contact, and its normal towards the first body."""
     if side.line:
         first, second = (here.point(at)[0, :2] for at in side.line)
         if side.bodies[0] != side.line[0].body:
             first, second = second, first
         return first, (second - first) / np.linalg.norm(second - first)
-    one = side.contact
-    assert one is not None
-    if isinstance(one, Pair):
-        return one.place(here)[0], one.normal_and_gap(here)[0][0]
-    normal = np.array(one.plane.normal)
-    radius = here.bodies[one.body].radius or 0.0
-    return here.point(one.at)[0, :2] - radius * normal, normal
+    contact = side.contact
+    assert contact is not None
+    if isinstance(contact, Pair):
+        return contact.place(here)[0], contact.normal_and_gap(here)[0][0]
+    normal = np.array(contact.plane.normal)
+    radius = here.bodies[contact.body].radius or 0.0
+    return here.point(contact.at)[0, :2] - radius * normal, normal

@@ -39,26 +39,26 @@ def reaction_checks(
         place = generated.base.place(mode.poses(t, q, v))
         a = _accelerations(mode, generated.base, t, q, v)
         size = max(worst(np.abs(a)), generated.base.terms(t, *place)[0]) or 1.0
-        apart = worst(np.abs(other.accelerations(t, *place) - a)) / size
-        moved.append(unexplained(apart, size, (other.accelerations, t, *place)))
+        error = worst(np.abs(other.accelerations(t, *place) - a)) / size
+        moved.append(unexplained(error, size, (other.accelerations, t, *place)))
         rows = other.f_a(t, place[0])
         uneven = max(uneven, condition(rows, generated.base))
         own, theirs = mode.reactions(t, q, v), other.reactions(t, *place)
         force = worst(map(abs, theirs.values())) or 1.0
-        apart = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
-        if apart > AGREE:
+        error = worst(abs(own[name] - theirs[name]) / force for name in own if name in theirs)
+        if error > AGREE:
             most = max(force, _borne(rows, generated.base, t, *place))
-            apart, force = apart * force / most, most
-        apart = unexplained(apart, force, (reacting(other), t, *place), (reacting(mode), t, q, v))
-        held += [apart] if own.keys() & theirs.keys() else []
-    least = max(AGREE, lost(uneven))
+            error, force = error * force / most, most
+        error = unexplained(error, force, (reactions(other), t, *place), (reactions(mode), t, q, v))
+        held += [error] if own.keys() & theirs.keys() else []
+    least = max(AGREE, rounding_error(uneven))
     yield Check("generated accelerations", worst(moved), least)
     if held:
         yield Check("generated reactions", worst(held), least)
 
 
 def _power(x: float) -> float:
-    """In whole powers of ten; of 0 it is 0."""
+    """The next power of ten above a number; 0 of 0."""
     return 10.0 ** math.ceil(math.log10(x)) if x else 0.0
 
 
@@ -86,38 +86,38 @@ Follows = tuple[Callable[..., Array], float, Array, Array]
 """What follows from a state, and the state: t [s], q and v."""
 
 
-def unexplained(apart: float, size: float, *follows: Follows) -> float:
-    """The difference; none where the states' own rounding may be all of it, in powers of ten.
+def unexplained(error: float, size: float, *follows: Follows) -> float:
+    """The difference, or 0 where the states' own rounding may be all of it, in powers of ten.
 
     Of two answers each has a state of its own: beside a dead centre that of one tells it badly.
     """
-    if not apart > AGREE:
-        return apart
-    steep = sum(_steep(*one) for one in follows)
-    return 0.0 if apart <= _power(steep / size) else apart
+    if not error > AGREE:
+        return error
+    steep = sum(_sensitivity(*quantity) for quantity in follows)
+    return 0.0 if error <= _power(steep / size) else error
 
 
-def reacting(mode: Mode) -> Callable[..., Array]:
+def reactions(mode: Mode) -> Callable[..., Array]:
     """The mode's reactions as one array."""
     return lambda t, q, v: np.array([*mode.reactions(t, q, v).values()])
 
 
-def _steep(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:
-    """How much what follows from a state changes with it: by some ulp, one way or the other.
+def _sensitivity(of: Callable[..., Array], t: float, q: Array, v: Array) -> float:
+    """Largest change of a function of a state when t, q and v change by some ulp.
 
     On the threshold of smooth friction a force that is rounded is multiplied by the law's slope. A
     place that is zero is rounded where it is measured from, by an ulp of the others.
     """
-    random, here, found = np.random.default_rng(SEED), of(t, q, v), 0.0
+    random, here, largest = np.random.default_rng(SEED), of(t, q, v), 0.0
     for _ in range(DRAWS):
         ways = [ULPS * EPS * random.choice((-1.0, 1.0), np.shape(x)) for x in (t, q, v)]
         moved = q + ways[1] * np.where(q == 0.0, worst(np.abs(q)), q)
         there = of(float(t * (1 + ways[0])), moved, v * (1 + ways[2]))
-        found = max(found, worst(np.abs(there - here)))
-    return found
+        largest = max(largest, worst(np.abs(there - here)))
+    return largest
 
 
-def lost(condition: float) -> float:
+def rounding_error(condition: float) -> float:
     """Relative error of equations with this condition number, in whole powers of ten."""
     return _power(DIGITS * EPS * condition)  # their digits would be rounding's
 

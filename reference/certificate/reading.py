@@ -27,7 +27,7 @@ class Size:
         """By a quantity's unit."""
         return {"m": self.m, "rad": self.rad, "m/s": self.speed, "rad/s": self.rate}[unit]
 
-    def apart(self, unit: str, read: Array | float, wanted: Array | float) -> float:
+    def difference(self, unit: str, read: Array | float, wanted: Array | float) -> float:
         """The largest difference, relative to the motion's size or to what is wanted, if larger."""
         own = max(self.of(unit), worst(np.abs(np.ravel(wanted))))
         return worst(np.abs(np.ravel(np.asarray(read) - wanted))) / (own or 1.0)

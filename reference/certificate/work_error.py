@@ -94,12 +94,12 @@ def work_errors(
     ends, works = [np.zeros(1)], [np.zeros((1, len(names)))]
     # Work that is none, as of a push at a pin, is all rounding: it is halved for no bar's sake.
     floor = NOBODY * np.array([least(case, name) or 0.0 for name in names])
-    left, total, count = np.zeros(len(names)), np.zeros(len(names)), 0
+    quadrature, total, count = np.zeros(len(names)), np.zeros(len(names)), 0
     while parts:
         begins(parts[0].begin, parts[-1].end)
         rows = [*_states(answer, parts)]
-        told = answer.along(rows)
-        powers = np.stack([power(case.scene, told, owner) for owner in owners])
+        at_nodes = answer.along(rows)
+        powers = np.stack([power(case.scene, at_nodes, owner) for owner in owners])
         powers = powers.reshape(len(names), -1, len(NODES))
         halves = np.array([(part.end - part.begin) / 2 for part in parts])
         closer, off = halves * (powers @ FIFTEEN), halves * (powers[..., 1::2] @ SEVEN)
@@ -112,7 +112,7 @@ def work_errors(
             wide[:] = False
         ends.append(np.array([part.end for part in parts])[~wide])
         works.append(closer[:, ~wide].T)
-        left += np.sum(off[:, ~wide], axis=1)
+        quadrature += np.sum(off[:, ~wide], axis=1)
         middles = rows[len(NODES) // 2 :: len(NODES)]
         parts = [
             half
@@ -126,7 +126,7 @@ def work_errors(
     sums = np.cumsum(work[order], axis=0)
     at = np.isin(motion.times, end)  # not all of them, where a part has many steps
     sums = sums[np.searchsorted(end[order], motion.times[at], side="right") - 1]
-    errors = left + ROUNDING * total
+    errors = quadrature + ROUNDING * total
     return {
         name: float(errors[i] + np.max(np.abs(sums[:, i] - observe(case.scene, motion, name)[at])))
         for i, name in enumerate(names)
@@ -134,20 +134,20 @@ def work_errors(
 
 
 def _parts(answer: Answer, times: Array) -> list[_Part]:
-    """Some steps of the march as one, and more where they are very many.
+    """The march in parts of some steps each, of more where there are very many.
 
     None goes on over a corner or a sample; where these are very many, over some of them.
     """
     march = answer.followed.march
     ends = {*answer.system.corners, *times[:: 1 + 2 * len(times) // MOST].tolist()}
-    many, found, joined = max(JOINED, 1 + 2 * len(march) // MOST), list[_Part](), 0
+    many, parts, joined = max(JOINED, 1 + 2 * len(march) // MOST), list[_Part](), 0
     for (t, phase, y), (after, other, _) in pairwise(march):
         if phase != other or after - t < TICKS * math.ulp(after):
             continue
-        last = found[-1] if found else None
+        last = parts[-1] if parts else None
         if last and joined < many and (last.phase, last.end) == (phase, t) and t not in ends:
-            found[-1], joined = replace(last, end=after), joined + 1
+            parts[-1], joined = replace(last, end=after), joined + 1
         else:
-            found.append(_Part(phase, t, after, y))
+            parts.append(_Part(phase, t, after, y))
             joined = 1
-    return found
+    return parts

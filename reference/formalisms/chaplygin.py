@@ -28,7 +28,7 @@ def accelerations(system: Mode, t: float, q: Array, v: Array) -> Array | None:
     alone = np.zeros(len(q))  # q^{a2} stays where it is: it is not asked for
     alone[by.a1] = independent
     drift = derivative(lambda t, q: by.momentum(t, q, independent), (t, q), (1.0, alone))
-    slopes, bends = (found[..., by.a1] for found in slopes_of(by, t, q, independent))
+    slopes, bends = (array[..., by.a1] for array in slopes_of(by, t, q, independent))
     turned = bends[:, :-1] - np.swapaxes(bends[:, :-1], 1, 2)
     driven = derivative(lambda t: by.alpha(t, q), (t,), (1.0,)) - bends[:, -1]
     right = slopes + by.forces(t, q, v) - drift

@@ -157,8 +157,8 @@ def dependent(
     if not independent:
         return None
     plain = rate_matrix(system, t, q, np.zeros(n)) is None
-    found = Dependent(system, n, plain, np.sort(bound), np.arange(n), np.arange(0))
-    B = np.asarray(found.admissible(t, q)[0], dtype=np.float64)
+    split = Dependent(system, n, plain, np.sort(bound), np.arange(n), np.arange(0))
+    B = np.asarray(split.admissible(t, q)[0], dtype=np.float64)
     m, k = B.shape
     allowed = np.arange(m) if among is None else np.asarray(among, dtype=np.int64)
     across = np.linalg.svd(B)[0][:, k:].T  # (m − k, m): along these q̇ cannot be
@@ -167,7 +167,7 @@ def dependent(
         return None
     a2 = np.sort(allowed[chosen])
     a1 = np.setdiff1d(np.arange(m), a2)
-    return Dependent(system, n, plain, a2 if plain else found.bound, a1, a2)
+    return Dependent(system, n, plain, a2 if plain else split.bound, a1, a2)
 
 
 def _pivots(rows: Array, size: float) -> tuple[Places, bool]:

@@ -70,11 +70,11 @@ def _widths(T: Callable[..., Any], t: Any, q: Any, fast: Array, most: float) -> 
 
     A ball of a micrometre turns by 1e6 rad/s where it goes 1 m/s; a flywheel has all of T.
     """
-    M, _ = _alone(T, t, q, len(fast))
-    return _even(M, float(np.max(M * fast**2)), most)
+    M, _ = _diagonal(T, t, q, len(fast))
+    return _equal_energy_rates(M, float(np.max(M * fast**2)), most)
 
 
-def _alone(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]:
+def _diagonal(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]:
     """|M_aa| (n,) of the ½ M_aa q̇ᵃ² in T, and the T of driven parts, without any rate.
 
     By unit rates, or by ever larger ones until they have more energy than what is driven, which
@@ -83,9 +83,9 @@ def _alone(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]
     rates, M, driven = np.ones(n), np.zeros(n), 0.0
     for _ in range(LARGER):
         each = np.diag(rates)
-        found = np.real(T(t, q, np.hstack([each, -each, np.zeros((n, 1))])))
-        found = np.broadcast_to(found, 2 * n + 1)
-        twice, driven = np.abs(found[:n] + found[n:-1] - 2 * found[-1]), abs(float(found[-1]))
+        values = np.real(T(t, q, np.hstack([each, -each, np.zeros((n, 1))])))
+        values = np.broadcast_to(values, 2 * n + 1)
+        twice, driven = np.abs(values[:n] + values[n:-1] - 2 * values[-1]), abs(float(values[-1]))
         M, hidden = twice / rates**2, twice <= driven
         if not (driven and np.any(hidden)):
             break
@@ -93,11 +93,11 @@ def _alone(T: Callable[..., Any], t: Any, q: Any, n: int) -> tuple[Array, float]
     return M, driven
 
 
-def _even(M: Array, energy: float, most: float) -> Array:
+def _equal_energy_rates(M: Array, energy: float, most: float) -> Array:
     """(n,) rates that alone have that energy; `most` where a rate has none."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.sqrt(energy / M)
-    return np.where(np.isfinite(found) & (found > 0.0), found, most)
+        rates = np.sqrt(energy / M)
+    return np.where(np.isfinite(rates) & (rates > 0.0), rates, most)
 
 
 def mass_matrix(system: Mode, t: float, q: Array) -> Array:
@@ -110,20 +110,20 @@ def curvature(T: Callable[..., Any], t: float, q: Array, n: int) -> Array:
 
     It is far above what T has without rates, where parts are driven, which would take its digits.
     """
-    M, driven = _alone(T, t, q, n)
-    widths = _even(M, float(np.max(M)) + MOST * driven, 1.0)
+    M, driven = _diagonal(T, t, q, n)
+    widths = _equal_energy_rates(M, float(np.max(M)) + MOST * driven, 1.0)
     rates, height = np.diag(widths), max(1, NUMBERS // (4 * n * n))
-    rows = [_mixed(T, t, q, rates[:, k : k + height], rates) for k in range(0, n, height)]
+    rows = [_cross(T, t, q, rates[:, k : k + height], rates) for k in range(0, n, height)]
     return np.concatenate(rows) / (4.0 * np.outer(widths, widths))
 
 
-def _mixed(T: Callable[..., Any], t: float, q: Array, first: Array, second: Array) -> Array:
+def _cross(T: Callable[..., Any], t: float, q: Array, first: Array, second: Array) -> Array:
     """T(a + b) − T(a − b) − T(b − a) + T(−a − b) for the columns a of `first` and b of `second`."""
     shape = first.shape[1], second.shape[1]
     a, b = np.repeat(first, shape[1], axis=1), np.tile(second, shape[0])
     values = T(t, q, np.hstack([a + b, a - b, b - a, -a - b]))
-    one, two, three, four = np.broadcast_to(values, 4 * shape[0] * shape[1]).reshape(4, *shape)
-    return one - two - three + four
+    pp, pm, mp, mm = np.broadcast_to(values, 4 * shape[0] * shape[1]).reshape(4, *shape)
+    return pp - pm - mp + mm
 
 
 def inertia(system: Mode, t: float, q: Array, v: Array) -> Array:

@@ -37,5 +37,5 @@ def unbalanced(system: Mode, t: float, q: Array, v: Array, a: Array) -> Array:
     if N is not None:
         missed = N.T @ missed
     missed = missed + gradient(lambda v: system.D(t, q, v), v) - system.Q4(t, q, v)
-    found: Any = np.linalg.solve(inertia(system, t, q, v), missed)
-    return found
+    misfit: Any = np.linalg.solve(inertia(system, t, q, v), missed)
+    return misfit

@@ -78,30 +78,30 @@ def placed(tree: Tree, q: Array) -> tuple[list[Placed], Axes]:
     return links, axes
 
 
-def _freed(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+def _free_frame(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
     r, E = q[joint.q : joint.q + 3], rotation(q[joint.q + 3 : joint.q + 7])
     k = joint.v
     axes.t[k : k + 3], axes.w[k + 3 : k + 6], axes.p[k + 3 : k + 6] = np.eye(3), E.T, r
     return r, E
 
 
-def _slid(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+def _slide_frame(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
     r, E = frame
     u = axes.t[joint.v] = E @ joint.axis
     return r + u * (q[joint.q] - joint.zero), E
 
 
-def _balled(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
-    return _hung(frame, joint, rotation(q[joint.q : joint.q + 4]), np.eye(3), axes)
+def _ball_frame(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+    return _turned_frame(frame, joint, rotation(q[joint.q : joint.q + 4]), np.eye(3), axes)
 
 
-def _hinged(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
+def _hinge_frame(frame: Placed, joint: TreeJoint, q: Array, axes: Axes) -> Placed:
     turn = about(joint.axis, float(q[joint.q]) - joint.zero)
-    return _hung(frame, joint, turn, joint.axis[None], axes)
+    return _turned_frame(frame, joint, turn, joint.axis[None], axes)
 
 
-def _hung(frame: Placed, joint: TreeJoint, R: Array, turns: Array, axes: Axes) -> Placed:
-    """Turned by R, as velocities do about the axes (k, 3), which it carries, of the anchor."""
+def _turned_frame(frame: Placed, joint: TreeJoint, R: Array, turns: Array, axes: Axes) -> Placed:
+    """The frame turned by R about the anchor; its rates turn it about the axes (k, 3)."""
     (r, E), at = frame, slice(joint.v, joint.v + len(turns))
     anchor, hung = r + E @ joint.anchor, E @ R
     axes.p[at], axes.w[at] = anchor, turns @ hung.T
@@ -109,7 +109,7 @@ def _hung(frame: Placed, joint: TreeJoint, R: Array, turns: Array, axes: Axes) -
 
 
 MOVES: Mapping[Kind, Callable[[Placed, TreeJoint, Array, Axes], Placed]] = {
-    "free": _freed, "slide": _slid, "ball": _balled, "hinge": _hinged,
+    "free": _free_frame, "slide": _slide_frame, "ball": _ball_frame, "hinge": _hinge_frame,
 }  # fmt: skip
 """By a joint's kind the frame that it makes of the one before it; it notes its axes."""
 
@@ -171,7 +171,7 @@ def _skew(r: Array) -> Array:
     return np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
 
 
-def _along(J: Array, vectors: Array) -> Array:
+def _project(J: Array, vectors: Array) -> Array:
     """(n,): Σ Jᵀ F over all bodies, J (B, 3, n), F (B, 3)."""
     return J.reshape(-1, J.shape[2]).T @ vectors.ravel()
 
@@ -194,7 +194,7 @@ def bias(tree: Tree, bodies: Moving) -> Array:
     The equations of motion are M v̇ + this = all other forces.
     """
     forces, moments = _needed(tree, bodies)
-    return _along(bodies.J_r, forces) + _along(bodies.J_omega, moments)
+    return _project(bodies.J_r, forces) + _project(bodies.J_omega, moments)
 
 
 def _needed(tree: Tree, bodies: Moving) -> tuple[Array, Array]:
@@ -235,7 +235,7 @@ def _lifted(tree: Tree, bodies: Moving, coordinates: Array | bool) -> Term:
     """The weight that is compensated, in some of the coordinates."""
     weights = (bodies.lifted * bodies.mass)[:, None] * tree.gravity
     size = np.linalg.norm(weights, axis=1) @ np.linalg.norm(bodies.J_r, axis=1)
-    forces = -_along(bodies.J_r, weights)
+    forces = -_project(bodies.J_r, weights)
     return Term(np.where(coordinates, forces, 0.0), np.where(coordinates, size, 0.0))
 
 
@@ -298,7 +298,7 @@ def driven(tree: Tree, q: Array, v: Array, u: Array, bodies: Moving) -> Term:
     """
     forces = _exact(np.zeros(tree.n))
     if tree.motors:
-        gear, gains, biases, low, high, weak, strong = _stacked(tree.motors)
+        gear, gains, biases, low, high, weak, strong = _motor_arrays(tree.motors)
         lengths, sizes = (np.insert(of, 0, 1.0, axis=1) for of in _lengths(tree, gear, q, v))
         control = np.clip(u[[motor.u for motor in tree.motors]], low, high)
         free = (gains * lengths).sum(axis=1) * control + (biases * lengths).sum(axis=1)
@@ -311,7 +311,7 @@ def driven(tree: Tree, q: Array, v: Array, u: Array, bodies: Moving) -> Term:
     return Term(np.clip(forces.forces, *tree.clamped.T), forces.size)
 
 
-def _stacked(motors: Sequence[Motor]) -> tuple[Array, ...]:
+def _motor_arrays(motors: Sequence[Motor]) -> tuple[Array, ...]:
     """Returns of all motors: moments (k, n), gain and bias (k, 3), limits of control and force."""
     rows = ((x.moments, x.gain, x.bias, *x.control, *x.force) for x in motors)
     return tuple(np.array(column) for column in zip(*rows, strict=True))

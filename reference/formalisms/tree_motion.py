@@ -98,8 +98,8 @@ def tree_motion(
     within = times[: len(rough)]
     fine = np.array([*_Answer(tree, controls, FINE, most).samples(y, within)])
     m, count = len(q), len(fine)
-    off = DOUBLE * np.abs(rough[:count, :m] - fine[:, :m]).max(axis=1)
-    return TreeMotion(times[:count], fine[:, :m], np.maximum.accumulate(off))
+    error = DOUBLE * np.abs(rough[:count, :m] - fine[:, :m]).max(axis=1)
+    return TreeMotion(times[:count], fine[:, :m], np.maximum.accumulate(error))
 
 
 class _Answer:

@@ -65,5 +65,5 @@ def slopes_of(by: Dependent, t: float, q: Array, independent: Array) -> tuple[Ar
         T = by.system.T(t, q, by.joined(independent, alpha, gamma))
         return np.concatenate([np.atleast_1d(T), np.column_stack([alpha, gamma]).ravel()])
 
-    found = np.stack([derivative(all_of, (q,), (e,)) for e in np.eye(len(q))], axis=-1)
-    return found[0], found[1:].reshape(len(by.a2), len(by.a1) + 1, len(q))
+    slopes = np.stack([derivative(all_of, (q,), (e,)) for e in np.eye(len(q))], axis=-1)
+    return slopes[0], slopes[1:].reshape(len(by.a2), len(by.a1) + 1, len(q))

@@ -63,8 +63,8 @@ def velocity(pose: Pose) -> tuple[Any, ...]:
 
 def rows(system: Mode, wrenches: Mapping[str, Array]) -> Array:
     """The rows of all bodies below each other: a particle has none of moments."""
-    found = []
+    parts = []
     for name, mass in system.masses.items():
         d = (len(wrenches[name]) + 1) // 2
-        found.append(wrenches[name][:d] if mass.J is None else wrenches[name])
-    return np.concatenate(found)
+        parts.append(wrenches[name][:d] if mass.J is None else wrenches[name])
+    return np.concatenate(parts)

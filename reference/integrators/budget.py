@@ -48,7 +48,7 @@ def budget(seconds: float) -> Iterator[None]:
 
 
 def motion(begin: float, until: float) -> None:
-    """A motion begins that leads from one time to the other [s]; for whoever waits it is named."""
+    """Notes that a motion begins that leads from one time to the other [s], with its name."""
     NOW.motions += 1
     doing(ANSWERS[min(NOW.motions, len(ANSWERS)) - 1], begin, until)
 

@@ -230,7 +230,7 @@ class Factors:
         self._lu, self._pivots, _ = factor(matrix)
 
     def solve(self, right: Any) -> Any:
-        """Not finite if the matrix was singular; the callers look at that anyway."""
+        """The solution; not finite if the matrix was singular."""
         return self._solve(self._lu, self._pivots, right)[0]
 
 
@@ -254,10 +254,10 @@ class ByEigenvalues:
     """
 
     def __init__(self, table: Collocation, scaled: Matrix) -> None:
-        one = np.eye(len(scaled))
+        identity = np.eye(len(scaled))
         self.table = table
         self.factors = [
-            Factors(one - (value if value.imag else value.real) * scaled)
+            Factors(identity - (value if value.imag else value.real) * scaled)
             for value in table.values.tolist()
         ]
 

@@ -121,9 +121,9 @@ class _Walker:
         """Take one step towards `target`, landing on it exactly with the last."""
         rejected, before = 0, math.inf
         while True:
-            left = target - self.t
-            pieces = max(1, math.ceil(left / self.wanted - STRETCH))
-            h = left / pieces
+            remaining = target - self.t
+            pieces = max(1, math.ceil(remaining / self.wanted - STRETCH))
+            h = remaining / pieces
             error, tried, problem = self._try(h)
             if not error < math.inf:
                 factor = SHRINK
@@ -139,7 +139,7 @@ class _Walker:
             before = error
             self.wanted = h * min(factor, SAFETY)
             # Below 4 ulp the time no longer advances properly; at t = 0 some other bound is needed.
-            if self.wanted < max(4.0 * math.ulp(self.t), 1e-30 * left):
+            if self.wanted < max(4.0 * math.ulp(self.t), 1e-30 * remaining):
                 what = "the step size underflows" if error < math.inf else "values are not finite"
                 raise IntegrationError(what, self.t) from problem
 
@@ -153,19 +153,19 @@ class _Walker:
                 if self.quiet or not self.begun:
                     self.least = leaps(self.method.f, self.t, self.y, ahead)
                 later = np.abs(self.method.f(self.until, self.y))
-                found = noise(self.method.f, self.t, self.y, far, self.peak, self.least, later)
+                rounding = noise(self.method.f, self.t, self.y, far, self.peak, self.least, later)
             except (ArithmeticError, ValueError):  # too far out, as in an attempt
                 return
         self.method.evaluations += POINTS
-        if found is not None:
-            self.noise, self.quiet = found, False
+        if rounding is not None:
+            self.noise, self.quiet = rounding, False
 
     def _floor(self, h: float) -> Vector:
         """The size at which the tolerance is what rounding of the slopes does to a step of h."""
         return ROUNDED * h / self.method.tolerance * self.noise
 
     def _audible(self, peak: Vector, h: float) -> Vector:
-        """The peaks, and at least that size."""
+        """The peaks, each at least as large as the floor of rounding."""
         return peak if self.quiet else np.maximum(peak, self._floor(h))
 
     def _try(self, h: float) -> tuple[float, tuple[Vector, Vector, Vector], Exception | None]:

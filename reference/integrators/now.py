@@ -34,7 +34,7 @@ class Now:
         return f"{self.what}, at {self.at:.4g} of {self.end:.4g}{unit}{rest and ', ' + rest}"
 
     def line(self) -> str:
-        """The same after what it is done of."""
+        """The text, after the name of what the work is done for."""
         return ": ".join(part for part in (self.task, self.text()) if part)
 
 
@@ -43,19 +43,19 @@ SURE = 0.02  # of a part: before that much is done nobody knows how long the res
 
 
 def begun(task: str) -> None:
-    """Says of what all that follows is done."""
+    """Notes the name of what all following work is done for."""
     NOW.task, NOW.motions = task, 0
     doing("")
 
 
 def doing(what: str, begin: float = 0.0, end: float = 0.0, unit: str = "s") -> None:
-    """Says what is begun, and from where to where it leads, if that is known."""
+    """Notes the work that begins, and its range if that is known."""
     NOW.at, NOW.begin, NOW.end, NOW.unit = begin, begin, end, unit
     NOW.since, NOW.what = time.monotonic(), what
 
 
 def reached(at: float) -> None:
-    """Says how far it is."""
+    """Notes how far the work has come."""
     NOW.at = at
 
 

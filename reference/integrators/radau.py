@@ -93,8 +93,8 @@ Spectrum = tuple[NDArray[np.complex128], NDArray[np.complex128], NDArray[np.comp
 
 def _spectrum(a: NDArray[np.float64]) -> Spectrum:
     """Eigenvalues without their conjugates, and what leads into their vectors and back."""
-    found: Any = np.linalg.eig(a.astype(np.complex128))
-    values, vectors = found
+    eigen: Any = np.linalg.eig(a.astype(np.complex128))
+    values, vectors = eigen
     real = np.abs(values.imag) < 1e-8 * np.abs(values)  # pairs are far from it
     values = np.where(real, values.real, values)
     kept = [*np.flatnonzero(real), *np.flatnonzero(~real & (values.imag > 0.0))]

@@ -41,12 +41,12 @@ def noise(
     along, across = f(t, y), math.pi * EPS * peak
     pace = APART * h
     values = [f(t + i * pace, y + i * (pace * along + across)) for i in range(DIFFERENCED)]
-    found = scatter(values)
+    sigma = scatter(values)
     late = math.ulp(t) / math.sqrt(12.0)  # of a clock that is rounded, evenly
-    found = np.maximum(found, late * np.abs(values[-1] - values[0]) / (DIFFERENCED - 1) / pace)
-    found = np.maximum(found, least)
+    sigma = np.maximum(sigma, late * np.abs(values[-1] - values[0]) / (DIFFERENCED - 1) / pace)
+    sigma = np.maximum(sigma, least)
     largest = np.maximum(np.maximum(np.abs(along), np.abs(f(t + h, y + h * along))), later)
-    return found if found.max() <= LOUD * largest.max() < math.inf else None
+    return sigma if sigma.max() <= LOUD * largest.max() < math.inf else None
 
 
 def scatter(values: Sequence[Vector]) -> Vector:
@@ -63,27 +63,27 @@ def leaps(f: Slope, t: float, y: Vector, h: float) -> Vector:
     """
     rest = f(t, y)
     way = h * f(t + h, y + h * f(t + h, y + h * rest))  # in which what is pushed also moves
-    found = _leap(lambda part: np.abs(f(t + part * h, y) - rest), 0)
+    rounding = _leap(lambda part: np.abs(f(t + part * h, y) - rest), 0)
     for j in np.flatnonzero(way):
 
-        def felt(part: float, j: Any = j) -> Vector:
+        def change(part: float, j: Any = j) -> Vector:
             moved = y.copy()
             moved[j] += part * way[j]
             return np.abs(f(t, moved) - rest)
 
-        found = np.maximum(found, _leap(felt, COARSE))
-    return found
+        rounding = np.maximum(rounding, _leap(change, COARSE))
+    return rounding
 
 
-def _leap(felt: Callable[[float], Vector], coarse: int) -> Vector:
+def _leap(change: Callable[[float], Vector], coarse: int) -> Vector:
     """The change at the least power of two, up to 2^coarse, at which there is any, over √12.
 
     0 where there is one at the finest as well, or none at the coarsest.
     """
     low, high = FINE, coarse
-    if felt(math.ldexp(1.0, low)).any() or not felt(math.ldexp(1.0, high)).any():
-        return 0.0 * felt(0.0)
+    if change(math.ldexp(1.0, low)).any() or not change(math.ldexp(1.0, high)).any():
+        return 0.0 * change(0.0)
     while high - low > 1:
         k = (low + high) // 2
-        low, high = (low, k) if felt(math.ldexp(1.0, k)).any() else (k, high)
-    return felt(math.ldexp(1.0, high)) / math.sqrt(12.0)
+        low, high = (low, k) if change(math.ldexp(1.0, k)).any() else (k, high)
+    return change(math.ldexp(1.0, high)) / math.sqrt(12.0)

@@ -45,8 +45,8 @@ def differences(state: Constrained) -> Iterator[tuple[Constraint, float, float]]
     for constraint in state.constraints:
         rows, unit = constraint.rows, _units(constraint)
         force = projected(constraint, free[rows], R[rows])
-        off = np.abs(state.f[rows] - force) / unit
-        yield constraint, float(off.max()), float((sizes[rows] / unit).max())
+        error = np.abs(state.f[rows] - force) / unit
+        yield constraint, float(error.max()), float((sizes[rows] / unit).max())
 
 
 def _units(constraint: Constraint) -> Array:

@@ -50,7 +50,7 @@ class Counted:
     missed: tuple[str, float] | None = None
 
     def with_turns(self, motion: Trajectory) -> Trajectory:
-        """The motion, with what its turns are near at its own times."""
+        """The motion, with the counted turns at its own times."""
         near = {name: self._at(motion.times, angles) for name, angles in self.angles.items()}
         return replace(motion, near=near, fastest=self.fastest)
 
@@ -59,7 +59,7 @@ class Counted:
 
     @property
     def fastest(self) -> float:
-        """[rad/s]"""
+        """Largest rate of any turn [rad/s]."""
         return max((float(np.max(np.abs(rates))) for rates in self.rates.values()), default=0.0)
 
     def unrolled(self) -> float:
@@ -78,7 +78,7 @@ class Counted:
 
 
 def counted(scene: Scene, system: System, followed: Followed) -> Counted:
-    """Along the steps of a motion; nothing in the plane, where a state has its turns."""
+    """Counts the turns of joints along a motion in space; in the plane a state has them."""
     space = scene.frame is SPACE
     every: Any = scene.joints.values() if space else ()
     joints = [joint for joint in every if joint.counts]
@@ -86,19 +86,19 @@ def counted(scene: Scene, system: System, followed: Followed) -> Counted:
         return Counted()
     rows = [_Row(i, *kept) for i, kept in enumerate(followed.march)]
     bare = [_poses(system, followed, row) for row in rows]
-    times, found = _turned(scene, joints, rows, bare)
+    times, by_joint = _count_turns(scene, joints, rows, bare)
     for _ in range(ROUNDS):
-        wide = np.any([far(turns, times) for turns in found.values()], axis=0)
+        wide = np.any([far(turns, times) for turns in by_joint.values()], axis=0)
         if not wide.any():
             break
-        rows, bare = _halved(system, followed, rows, bare, wide.tolist())
-        times, found = _turned(scene, joints, rows, bare)
+        rows, bare = _refine(system, followed, rows, bare, wide.tolist())
+        times, by_joint = _count_turns(scene, joints, rows, bare)
     return Counted(
         times,
-        {name: turns.angles for name, turns in found.items()},
-        {name: turns.rates for name, turns in found.items()},
-        any(_lost(turns) for turns in found.values()),
-        _missed(times, found),
+        {name: turns.angles for name, turns in by_joint.items()},
+        {name: turns.rates for name, turns in by_joint.items()},
+        any(_lost(turns) for turns in by_joint.values()),
+        _first_miss(times, by_joint),
     )
 
 
@@ -109,8 +109,8 @@ def _lost(turns: Turns) -> bool:
     return bool(np.any(turns.aside[near] > STRAIGHT * np.abs(turns.rates[near, 1])))
 
 
-def _missed(times: Array, found: Mapping[str, Turns]) -> tuple[str, float] | None:
-    for name, turns in found.items():
+def _first_miss(times: Array, by_joint: Mapping[str, Turns]) -> tuple[str, float] | None:
+    for name, turns in by_joint.items():
         beyond = np.broadcast_to(turns.missed > MISSED, times.shape)
         if beyond.any():
             return name, float(times[np.argmax(beyond)])
@@ -132,7 +132,7 @@ def _poses(system: System, followed: Followed, row: _Row) -> Any:
     return mode.poses(row.t, *mode.parted(row.y))
 
 
-def _turned(
+def _count_turns(
     scene: Scene, joints: list[Any], rows: list[_Row], bare: list[Any]
 ) -> tuple[Array, dict[str, Turns]]:
     """The times, and the turns of each joint as they are counted from row to row."""
@@ -142,10 +142,10 @@ def _turned(
     return times, {joint.name: joint.turned(motion) for joint in joints}
 
 
-def _halved(
+def _refine(
     system: System, followed: Followed, rows: list[_Row], bare: list[Any], wide: list[bool]
 ) -> tuple[list[_Row], list[Any]]:
-    """A row more in the middle of each interval that is too wide."""
+    """The rows with one more in the middle of each interval that is too wide."""
     kept, poses = rows[:1], bare[:1]
     for row, after, pose, is_wide in zip(rows[:-1], rows[1:], bare[1:], wide, strict=True):
         middle = (row.t + after.t) / 2
@@ -245,17 +245,17 @@ class Answer:
                     states.setdefault(name, []).append(pose)
             if forces or inner:
                 try:
-                    found = {**self.beside(phase, t, poses), **mode.reactions(t, q, v)}
+                    values = {**self.beside(phase, t, poses), **mode.reactions(t, q, v)}
                 except ArithmeticError as error:
                     raise Stuck(str(error), mode, t, y) from error
                 if self.accelerates:
-                    found |= accelerations(mode, t, q, v)
-                reactions.append(found | inner)
-        names = dict.fromkeys(name for found in reactions for name in found)
+                    values |= accelerations(mode, t, q, v)
+                reactions.append(values | inner)
+        names = dict.fromkeys(name for values in reactions for name in values)
         return Trajectory(
             np.array(times),
             {name: np.array(poses, float) for name, poses in states.items()},
-            {name: np.array([found.get(name, 0.0) for found in reactions]) for name in names},
+            {name: np.array([values.get(name, 0.0) for values in reactions]) for name in names},
         )
 
 

@@ -88,7 +88,7 @@ def first(
     looked at of which it is known what is nothing. together [s]: of two that fall so close the
     first in the list is told.
     """
-    found, touched = None, list[tuple[int, float]]()
+    earliest, touched = None, list[tuple[int, float]]()
     # All guards at one state: they ask for the same forces.
     asked = zip(points, states, strict=True)
     rows = [[guard(t + at, y) for guard in guards] for at, y in asked]
@@ -110,11 +110,11 @@ def first(
         elif soon:
             looked, values = [0.0, *points[soon + 1 :]], [values[0], *values[soon + 1 :]]
         at, touch = crossing(g, looked, values, begins=fresh, spent=i == spent, together=together)
-        if at is not None and (found is None or at < found[1] - together):
-            found = i, at
+        if at is not None and (earliest is None or at < earliest[1] - together):
+            earliest = i, at
         if touch is not None:
             touched.append((i, touch))
-    return found, [each for each in touched if found is None or each[1] < found[1]]
+    return earliest, [each for each in touched if earliest is None or each[1] < earliest[1]]
 
 
 def crossing(
@@ -130,19 +130,19 @@ def crossing(
     rise = next((i for i, value in enumerate(values) if value > 0.0), None)
     if rise is None:
         if begins and values[-1] < values[0]:
-            return _begun(g, points[-1], spent, together), None
-        top = _near(g, points, values, -1.0)
+            return _onset(g, points[-1], spent, together), None
+        top = _bracket(g, points, values, -1.0)
         return None if top is None else _root(g, *top, together), None
     if begins and not spent and rise:
         low = min(values[:rise])
         if low < values[0] - TOUCH * max(map(abs, values)):  # and it comes back in the same step
-            return _begun(g, points[values.index(low)], spent, together), None
+            return _onset(g, points[values.index(low)], spent, together), None
     fall = next((i for i in range(rise, len(values)) if values[i] <= 0.0), None)
     if fall is not None:
         left, at = points[fall - 1], points[fall]
         if begins and fall == 1:
-            left = _risen(g, values[0], at)
-    elif (bottom := _near(g, points[rise:], values[rise:], 1.0)) is not None:
+            left = _last_rise(g, values[0], at)
+    elif (bottom := _bracket(g, points[rise:], values[rise:], 1.0)) is not None:
         left, at = bottom
     else:
         return None, None
@@ -177,7 +177,7 @@ def _touches(
     return bool(turn.fun >= -deep)
 
 
-def _begun(g: Callable[[float], float], h: float, spent: bool, together: float) -> float | None:
+def _onset(g: Callable[[float], float], h: float, spent: bool, together: float) -> float | None:
     """The zero after a rise too short for the points to see; without one, the very beginning."""
     for k in range(1, HALVINGS):
         if g(h / 2**k) > 0.0:
@@ -185,7 +185,7 @@ def _begun(g: Callable[[float], float], h: float, spent: bool, together: float) 
     return None if spent else 0.0
 
 
-def _risen(g: Callable[[float], float], begin: float, fallen: float) -> float:
+def _last_rise(g: Callable[[float], float], begin: float, fallen: float) -> float:
     """The last of ever shorter times at which g is more than it begins with; 0 without one.
 
     What begins with a zero that rounding has made positive, rises and falls at once, as a rope just
@@ -194,7 +194,7 @@ def _risen(g: Callable[[float], float], begin: float, fallen: float) -> float:
     return next((at for k in range(1, HALVINGS) if g(at := fallen / 2**k) > begin), 0.0)
 
 
-def _near(
+def _bracket(
     g: Callable[[float], float], points: list[float], values: list[float], sign: float
 ) -> tuple[float, float] | None:
     """A dip to zero (sign 1) or a hump above it (−1) between the points: a bracket of its fall.

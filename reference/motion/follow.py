@@ -26,8 +26,8 @@ from .zeno import (
     ROUNDING,
     ZenoError,
     accumulation,
+    converged,
     ends_here,
-    gone,
     pile,
     settles,
 )
@@ -212,14 +212,14 @@ class _Walk:
                 first, near, step.t, points, states, state,
                 begins=begins, spent=spent, nothing=none, soon=len(soon), together=self.together,
             )  # fmt: skip
-            found, touched = fallen()
-            room = early.rounding(step.t, points) if found is not None else None
+            earliest, touched = fallen()
+            room = early.rounding(step.t, points) if earliest is not None else None
             if room is not None:
-                found, touched = fallen(rounding=room)
+                earliest, touched = fallen(rounding=room)
             for i, at in touched:
                 self.touched.append(Touch(guards[i].event, step.t + at, guards[i].jumps))
-            if found is not None:
-                i, after = found
+            if earliest is not None:
+                i, after = earliest
                 self._note(step.t, [part * after for part in (*INSIDE, 1.0)], state)
                 self._switch(guards[i], i, step.t + after, state(after))
                 return
@@ -249,8 +249,8 @@ class _Walk:
     ) -> None:
         """Rows of a step, but not those just behind the last sample."""
         if self.every:
-            found = states or [state(length) for length in lengths]
-            rows = zip(lengths, found, strict=True)
+            at_lengths = states or [state(length) for length in lengths]
+            rows = zip(lengths, at_lengths, strict=True)
             k, end = len(self.changes), self.stops[-2]
             self.rows += [(t + length, k, y) for length, y in rows if t + length <= end]
 
@@ -275,7 +275,7 @@ class _Walk:
         following = self._piles_up(name, t, refused=guard.at_last is None)
         if following is not None and guard.at_last is not None:
             last, a = guard.at_last(t, *parted), self.system.modes[mode].accelerations(t, q, v)
-            if last is not None and gone(v, last[2], a, following):
+            if last is not None and converged(v, last[2], a, following):
                 mode, q, v = last
                 self.endless.append(pile(self.fired[name]))
         self.spent = i if mode == ended else None
@@ -386,27 +386,25 @@ Timed = Callable[[float, Array], Any]
 
 
 def stops(now: float, samples: Array, corner: float, longest: float | None) -> Array:
-    """Now and the samples to come up to the corner, and times between them, none `longest` [s]
-    after the one before."""
+    """Ends of steps up to the corner: now, the samples, and times between, `longest` [s] apart."""
     last = min(corner, samples[-1])
-    found = np.array([now, *samples[(samples > now) & (samples < last)], last])
+    times = np.array([now, *samples[(samples > now) & (samples < last)], last])
     if longest is None:
-        return found
-    pieces = np.ceil(np.diff(found) / longest).astype(int)
-    spans = zip(found[:-1], found[1:], pieces, strict=True)
+        return times
+    pieces = np.ceil(np.diff(times) / longest).astype(int)
+    spans = zip(times[:-1], times[1:], pieces, strict=True)
     between = [np.linspace(a, b, n, endpoint=False) for a, b, n in spans]
-    return np.append(np.concatenate(between), found[-1])
+    return np.append(np.concatenate(between), times[-1])
 
 
 def on_samples(corners: Iterable[float], samples: Array) -> dict[float, list[float]]:
-    """The corners in their order, by where steps end for them: one that is a sample but for
-    rounding ends with that, and both are told."""
-    found: dict[float, list[float]] = {}
+    """The corners by the ends of steps: one that is a sample but for rounding ends with that."""
+    by_end: dict[float, list[float]] = {}
     for corner in sorted(set(corners)):
         near = float(samples[np.argmin(np.abs(samples - corner))])
         alike = abs(near - corner) <= ALIKE * math.ulp(near)
-        found.setdefault(near if alike else corner, []).extend([corner, *([near] * alike)])
-    return found
+        by_end.setdefault(near if alike else corner, []).extend([corner, *([near] * alike)])
+    return by_end
 
 
 def on_sample(t: float, samples: Array) -> float:

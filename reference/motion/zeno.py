@@ -36,23 +36,23 @@ def accumulation(instants: Sequence[float]) -> float | None:
 
 
 def settles(event: str, instants: Sequence[float], duration: float) -> float | None:
-    """The next distance [s], where instants pile up so close that a motion may go on from there.
+    """The next distance [s] of instants that pile up, where a motion may go on from their limit.
 
     None where they do not. Raises ZenoError where they are one, from which no motion goes on.
     """
     if len(instants) < 3:
         return None
-    one, two = np.diff(instants[-3:]).tolist()
-    if two < one:
-        following = two * two / one
-        if following <= LAST * duration or following <= EARLY * duration * (1.0 - two / one):
+    previous, last = np.diff(instants[-3:]).tolist()
+    if last < previous:
+        following = last * last / previous
+        if following <= LAST * duration or following <= EARLY * duration * (1.0 - last / previous):
             return following
     if len(instants) >= SEEN and instants[-1] - instants[-SEEN] <= instant(duration):
         raise ZenoError(event, instants[-1], "happens again and again")
     return None
 
 
-def gone(then: Array, last: Array, accelerations: Array, following: float) -> bool:
+def converged(then: Array, last: Array, accelerations: Array, following: float) -> bool:
     """Whether the velocities that the last of infinitely many events leaves, (n,), differ no more
     from those without end than what acts turns around in the next distance.
 
@@ -71,10 +71,10 @@ def pile(instants: Sequence[float]) -> Array:
     return np.array(instants[int(longer[-1]) + 1 if len(longer) else 0 :], dtype=np.float64)
 
 
-def left(pile: Array) -> float:
-    """How long [s] after the last of a pile its limit is, by the last two distances' ratio."""
-    two, one = np.diff(pile[-3:]).tolist()
-    rest: float = one * one / (two - one)
+def to_limit(pile: Array) -> float:
+    """Time [s] from the last of a pile to its limit, by the ratio of the last two distances."""
+    previous, last = np.diff(pile[-3:]).tolist()
+    rest: float = last * last / (previous - last)
     return rest
 
 

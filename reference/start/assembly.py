@@ -76,8 +76,8 @@ def assembled(closure: PlanarClosure | SpatialClosure) -> tuple[Array, Array]:
 
 def start_poses(case: Case) -> dict[str, Pose]:
     """The state of each body at t = 0, as its frame has it. Raises CaseError as `assemble` does."""
-    found: dict[str, Pose] = closure_of(case).where.poses(*assemble(case))
-    return found
+    poses: dict[str, Pose] = closure_of(case).where.poses(*assemble(case))
+    return poses
 
 
 def _long(closure: PlanarClosure | SpatialClosure, q: Array) -> None:

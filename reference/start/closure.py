@@ -67,20 +67,20 @@ class Rows(NamedTuple):
             np.vstack([self.rows, more.rows]), np.append(self.g, more.g), self.names + more.names
         )
 
-    def off(self, v: Array) -> Array:
+    def residuals(self, v: Array) -> Array:
         """Returns the residuals (r,) that v leaves."""
         return self.rows @ v - self.g
 
     def violated(self, v: Array) -> bool:
         """Whether v leaves more than rounding."""
         scale = max(product_size(self.rows, v), np.max(np.abs(self.g), initial=0.0))
-        return bool(np.max(np.abs(self.off(v)), initial=0.0) > CLOSED * scale)
+        return bool(np.max(np.abs(self.residuals(v)), initial=0.0) > CLOSED * scale)
 
     def solved(self, v: Array, free: Sequence[int]) -> Array:
         """v with the smallest change of its free columns; once more of what rounding has left."""
         v = v.copy()
         for _ in range(2):
-            v[free] -= least(self.rows[:, free], self.off(v))
+            v[free] -= least(self.rows[:, free], self.residuals(v))
         return v
 
 
@@ -164,7 +164,7 @@ class Closure:
         """q with its angles on the turns on which a start has them."""
         raise NotImplementedError
 
-    def apart(self, a: Array, b: Array) -> float:
+    def difference(self, a: Array, b: Array) -> float:
         """The largest difference of two solutions, in sizes and rad."""
         raise NotImplementedError
 
@@ -174,11 +174,11 @@ class Closure:
         """f = 0 in units of the size: residuals (k,) and rows (k, n)."""
         held = self._places.any()  # else there is nothing that (2.14) would be of
         f = residuals(self._table(self.parts), self.parts, 0.0, q.tolist()) if held else []
-        told = list(self.equations_of(self.case.initial, q))
-        angular = np.append(self._angular(self.parts)[self._places], [e.angular for e in told])
+        initial = list(self.equations_of(self.case.initial, q))
+        angular = np.append(self._angular(self.parts)[self._places], [e.angular for e in initial])
         units = np.where(angular, 1.0, self.size)
-        rows = [self._rows(self.parts, q)[0][self._places], *(e.row[None] for e in told)]
-        off = zip([*f, *(e.residual for e in told)], angular.tolist(), strict=True)
+        rows = [self._rows(self.parts, q)[0][self._places], *(e.row[None] for e in initial)]
+        off = zip([*f, *(e.residual for e in initial)], angular.tolist(), strict=True)
         return (  # a turn more is the same place
             np.array([math.remainder(x, math.tau) if angle else x / self.size for x, angle in off]),
             np.vstack(rows) * self.units / units[:, None],
@@ -236,27 +236,27 @@ class Closure:
 
     def body_coordinates(self, placements: Mapping[str, Placement]) -> dict[int, float]:
         """The coordinates that are given of bodies, by their places in q."""
-        found: dict[int, float] = {}
+        values: dict[int, float] = {}
         for name, placement in self._bodies(placements):
             at = self.where.slots[name]
             for i, axis in enumerate(self.scene.frame.axes):
                 if axis in placement.given:
-                    found[at.r + i] = placement.given[axis]
+                    values[at.r + i] = placement.given[axis]
             e = self.attitude_of(placement)
             if e is not None and at.attitude is not None:
-                found |= {at.attitude + i: x for i, x in enumerate(e)}
-        return found
+                values |= {at.attitude + i: x for i, x in enumerate(e)}
+        return values
 
     def fixed_columns(self, placements: Mapping[str, Placement]) -> set[int]:
         """The columns of v along which placements leave a body no way."""
-        found: set[int] = set()
+        columns: set[int] = set()
         for name, placement in self._bodies(placements):
             at = self.where.slots[name]
             axes = enumerate(self.scene.frame.axes)
-            found |= {at.r_dot + i for i, axis in axes if axis in placement.given}
+            columns |= {at.r_dot + i for i, axis in axes if axis in placement.given}
             if self.attitude_of(placement) is not None and at.omega is not None:
-                found |= {at.omega + i for i in range(self.where.frame.turns)}
-        return found
+                columns |= {at.omega + i for i in range(self.where.frame.turns)}
+        return columns
 
     def _bodies(self, placements: Mapping[str, Placement]) -> Iterator[tuple[str, Placement]]:
         yield from ((name, p) for name, p in placements.items() if name in self.where.slots)
@@ -269,16 +269,16 @@ class Closure:
 
     # How far a start is from what is near, and what it has instead.
 
-    def off(self, q: Array, *, turns: bool = False) -> dict[str, float]:
+    def near_errors(self, q: Array, *, turns: bool = False) -> dict[str, float]:
         """How far q is from all that `near` says, by name, in rad or sizes.
 
         turns: whether whole ones count, which what is given elsewhere may hold.
         """
-        found: dict[str, float] = {}
+        distances: dict[str, float] = {}
         for name, off, angular in self._off_near(q):
             size = (off if turns else math.remainder(off, math.tau)) if angular else off / self.size
-            found[name] = math.hypot(found.get(name, 0.0), size)
-        return found
+            distances[name] = math.hypot(distances.get(name, 0.0), size)
+        return distances
 
     def _off_near(self, q: Array) -> Iterator[tuple[str, float, bool]]:
         near = self.case.near
@@ -295,15 +295,15 @@ class Closure:
 
     def distance(self, q: Array) -> float:
         """How far q is from the worst of what `near` says, in rad or sizes; 0 without any."""
-        return max(self.off(q).values(), default=0.0)
+        return max(self.near_errors(q).values(), default=0.0)
 
     def shown(self, q: Array, name: str) -> str:
         """The value that q has of a coordinate, or of a point, as a file has it."""
         part, _, field = name.partition(".")
         if part in self.scene.joints:
-            found = self.coordinates(self.scene.joints[part], q)
+            coordinates = self.coordinates(self.scene.joints[part], q)
             return next(
-                value_text(c.value, c.freedom.kind) for c in found if c.freedom.name == field
+                value_text(c.value, c.freedom.kind) for c in coordinates if c.freedom.name == field
             )
         if field in self.scene.frame.axes:
             at = self.where.slots[part].r + self.scene.frame.axes.index(field)
@@ -316,14 +316,14 @@ class Closure:
     def velocities(self, q: Array) -> Rows:
         """Returns the rows of all that is held and given, but for rates of bodies, no unknowns."""
         names = [c.part for c in self.parts for _ in range(c.size)]
-        told = [*self._rates_of_joints(q), *self.rates_by_word(q)]
-        return Rows(*self.linear(self.parts, q), names).plus(self.scaled(told))
+        rates = [*self._rates_of_joints(q), *self.rates_by_word(q)]
+        return Rows(*self.linear(self.parts, q), names).plus(self.scaled(rates))
 
-    def scaled(self, told: Sequence[Equation]) -> Rows:
-        """The rows of rates."""
-        units = np.where([e.angular for e in told], 1.0, self.size)
-        rows = np.array([e.row for e in told]).reshape(-1, self.n) * self.units / units[:, None]
-        return Rows(rows, -np.array([e.residual for e in told]) / units, [e.name for e in told])
+    def scaled(self, rates: Sequence[Equation]) -> Rows:
+        """The rows of equations of rates, in units of the size."""
+        units = np.where([e.angular for e in rates], 1.0, self.size)
+        rows = np.array([e.row for e in rates]).reshape(-1, self.n) * self.units / units[:, None]
+        return Rows(rows, -np.array([e.residual for e in rates]) / units, [e.name for e in rates])
 
     def given_rates(self) -> dict[int, float]:
         """The velocities that are given of bodies, by their columns in v."""

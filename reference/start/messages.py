@@ -32,11 +32,11 @@ def several(
     for name, value in near.items():
         part, _, field = name.partition(".")
         parts.setdefault(part, []).append(f"{field}: {value}")
-    said = ", ".join(f"{part}: {{{', '.join(fields)}}}" for part, fields in parts.items())
+    text = ", ".join(f"{part}: {{{', '.join(fields)}}}" for part, fields in parts.items())
     return initial(
         case,
         f"the mechanism can be assembled in {count} ways: {coordinate} = {' or '.join(values)}; "
-        f"say which by `near`, for instance near: {{{said}}}",
+        f"say which by `near`, for instance near: {{{text}}}",
     )
 
 

@@ -15,7 +15,7 @@ from ..mechanism.constraints.constraint import Constraint, tracked
 from ..mechanism.constraints.constraint_terms import FIRST, Along
 from ..mechanism.constraints.joint_constraints import gliding
 from ..mechanism.kinematics.coordinates import Coordinates
-from ..mechanism.modes.unilateral import along, apart
+from ..mechanism.modes.unilateral import pair_normal, pair_tangent
 from ..system import Array
 from . import messages
 from .closure import Closure, Coordinate, Equation, product_size, value_text
@@ -58,11 +58,11 @@ class PlanarClosure(Closure):
         self._locks = [lock for part in self.parts for lock in self._held_by(part)]
         self._locks += self._turned(self.case.initial)
         self._guessed = self._turned(self.case.near)
-        found = held_angles(self._locks, self.body_coordinates(self.case.initial))
-        return found, found.keys()
+        angles = held_angles(self._locks, self.body_coordinates(self.case.initial))
+        return angles, angles.keys()
 
     def _turned(self, placements: Mapping[str, Placement]) -> list[Lock]:
-        """The angles that placements say of joints."""
+        """Locks of the angles that placements give of joints."""
         said = [
             (self.scene.joints[name], placement.given["angle"])
             for name, placement in placements.items()
@@ -132,7 +132,7 @@ class PlanarClosure(Closure):
         q[list(known)] = list(known.values())
         return q
 
-    def apart(self, a: Array, b: Array) -> float:
+    def difference(self, a: Array, b: Array) -> float:
         """The largest difference, to whole turns of angles."""
         pairs = zip((a - b).tolist(), self.turning.tolist(), strict=True)
         return max(
@@ -212,9 +212,9 @@ class PlanarClosure(Closure):
         """Raises CaseError for a joint's angle that is whole turns from that of its bodies."""
         for name, placement in self.case.initial.items():
             for c in self.placed(name, placement, q):
-                off = c.value - placement.given[c.freedom.name]
-                if c.freedom.kind == "turn" and abs(off) > math.pi:
-                    raise messages.another_turn(self.case, name, off)
+                turn = c.value - placement.given[c.freedom.name]
+                if c.freedom.kind == "turn" and abs(turn) > math.pi:
+                    raise messages.another_turn(self.case, name, turn)
 
     # In which words.
 
@@ -261,7 +261,7 @@ class PlanarClosure(Closure):
 def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
     """n·r_P = n·r₀ of the plane or face that it touches, or of the floor."""
     for pair in _pairs(anchor, where):
-        return apart(pair, where)
+        return pair_normal(pair, where)
     touching = (c.plane for c in where.scene.touching.values() if c.at == anchor)
     plane = next(touching, LEVEL)
     row, at = (Along(FIRST, plane.normal),), -plane.height(0.0, 0.0)
@@ -269,9 +269,9 @@ def _on_plane(anchor: Anchor, where: Coordinates) -> Constraint:
 
 
 def _still(anchor: Anchor, where: Coordinates) -> list[Constraint]:
-    """Neither slips nor rises where it stands: on the ground, or on another body that may move."""
+    """Constraints of a point that stands: it neither rises nor slips on ground or body."""
     for pair in _pairs(anchor, where):
-        return [apart(pair, where), along(pair, where)]
+        return [pair_normal(pair, where), pair_tangent(pair, where)]
     return [tracked(anchor, where)]
 
 
@@ -281,13 +281,13 @@ def _pairs(anchor: Anchor, where: Coordinates) -> list[Pair]:
 
 def held_angles(locks: Sequence[Lock], known: Mapping[int, float]) -> dict[int, float]:
     """The known angles, and those that slides and welds hold against them, on the same turn."""
-    found = dict(known)
+    angles = dict(known)
     for _ in locks:  # the longest chain
         for lock in locks:
-            a = 0.0 if lock.a is None else found.get(lock.a)
-            b = 0.0 if lock.b is None else found.get(lock.b)
+            a = 0.0 if lock.a is None else angles.get(lock.a)
+            b = 0.0 if lock.b is None else angles.get(lock.b)
             if lock.b is not None and b is None and a is not None:
-                found[lock.b] = a + lock.angle
+                angles[lock.b] = a + lock.angle
             elif lock.a is not None and a is None and b is not None:
-                found[lock.a] = b - lock.angle
-    return found
+                angles[lock.a] = b - lock.angle
+    return angles

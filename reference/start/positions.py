@@ -36,15 +36,15 @@ def positions(closure: EitherClosure) -> Array:
     Raises CaseError if there is none, more than one to choose from, or a coordinate is left open.
     """
     closure.refuse_words()
-    found, (gap, nearest) = search(closure, partial(_guesses, closure), closure.is_assembly)
-    if not found:
+    candidates, (gap, nearest) = search(closure, partial(_guesses, closure), closure.is_assembly)
+    if not candidates:
         raise _cannot_close(closure, nearest, gap)
-    ways = nearest_ways(closure, found)
+    ways = nearest_ways(closure, candidates)
     _determined(closure, ways[0])
     if len(ways) > 1:
         raise _several_ways(closure, ways)
-    if max(closure.off(ways[0], turns=True).values(), default=0.0) > FAR:
-        raise _none_near(closure, ways[0], found)
+    if max(closure.near_errors(ways[0], turns=True).values(), default=0.0) > FAR:
+        raise _none_near(closure, ways[0], candidates)
     closure.refuse_turns(ways[0])
     return ways[0]
 
@@ -134,18 +134,18 @@ def _several_ways(closure: EitherClosure, ways: list[Array]) -> CaseError:
     """
     name = closure.distinguishing(ways)
     values = list(dict.fromkeys(closure.shown(q, name) for q in ways))
-    first, near, left = ways[0], dict[str, str](), ways
-    while len(left) > 1:
-        tells = closure.distinguishing(left)
+    first, near, candidates = ways[0], dict[str, str](), ways
+    while len(candidates) > 1:
+        tells = closure.distinguishing(candidates)
         near[tells] = closure.shown(first, tells)
-        alike = [q for q in left if closure.shown(q, tells) == near[tells]]
-        left = alike if len(alike) < len(left) else [first]
+        alike = [q for q in candidates if closure.shown(q, tells) == near[tells]]
+        candidates = alike if len(alike) < len(candidates) else [first]
     return messages.several(closure.case, len(ways), name, values, near)
 
 
-def _none_near(closure: EitherClosure, way: Array, found: list[Array]) -> CaseError:
+def _none_near(closure: EitherClosure, way: Array, candidates: list[Array]) -> CaseError:
     """No way is where `near` says; told by what is farthest from it, and from the nearest on."""
-    off = closure.off(way, turns=True)
-    name = max(off, key=off.__getitem__)
-    nearest_first = sorted(found, key=closure.distance)
+    errors = closure.near_errors(way, turns=True)
+    name = max(errors, key=errors.__getitem__)
+    nearest_first = sorted(candidates, key=closure.distance)
     return messages.none_near(closure.case, name, [closure.shown(q, name) for q in nearest_first])

@@ -26,42 +26,42 @@ def rates(closure: Closure, q: Array) -> Array:
         columns = closure.columns(bodies)
         free = [i for i in columns if i not in given]
         mine = held.about(columns), resting.about(columns)
-        found = _of_one(closure, *mine, v / closure.units, free)
-        found[np.abs(found) <= ROUNDING * np.max(np.abs(found), initial=0.0)] = 0.0
-        v[free] = found[free] * closure.units[free]  # a rate that is given stays to the bit
+        solution = _of_one(closure, *mine, v / closure.units, free)
+        solution[np.abs(solution) <= ROUNDING * np.max(np.abs(solution), initial=0.0)] = 0.0
+        v[free] = solution[free] * closure.units[free]  # a rate that is given stays to the bit
     closure.refuse_rates(q, v / closure.units)
     return v
 
 
 def _of_one(closure: Closure, held: Rows, resting: Rows, v: Array, free: list[int]) -> Array:
-    """v (n,) in sizes and rad per second; the columns of one mechanism that are free are found.
+    """v (n,) in sizes and rad per second, solved for the free columns of one mechanism.
 
     resting: what is to be zero where what is held does not tell it.
     """
     known = rank(held.rows[:, free])
-    untold = [rank(np.vstack([held.rows, row])[:, free]) > known for row in resting.rows]
-    left = resting.selected(np.array(untold, bool))
-    every = held.plus(left)
+    independent = [rank(np.vstack([held.rows, row])[:, free]) > known for row in resting.rows]
+    at_rest = resting.selected(np.array(independent, bool))
+    every = held.plus(at_rest)
     if not every.violated(v):
         return v
-    found = every.solved(v, free)
-    if every.violated(found):
+    solution = every.solved(v, free)
+    if every.violated(solution):
         alone = held.solved(v, free)
         if held.violated(alone):
-            owner = held.names[int(np.argmax(np.abs(held.off(alone))))]
+            owner = held.names[int(np.argmax(np.abs(held.residuals(alone))))]
             stands = owner in closure.standing
             raise (messages.moves if stands else messages.rates_violate)(closure.case, owner)
-        raise messages.missing(closure.case, rank(every.rows[:, free]) - known, left.names)
+        raise messages.missing(closure.case, rank(every.rows[:, free]) - known, at_rest.names)
     loose = null(every.rows[:, free], len(free))
     if not len(loose):
-        return found
+        return solution
     open_ = np.max(np.abs(loose), axis=0) > LOOSE
-    found[np.array(free)[open_]] = 0.0
-    found = every.solved(found, np.array(free)[~open_].tolist())
-    if every.violated(found):
+    solution[np.array(free)[open_]] = 0.0
+    solution = every.solved(solution, np.array(free)[~open_].tolist())
+    if every.violated(solution):
         names = [closure.where.rate_names[i] for i in np.array(free)[open_]]
         raise messages.missing(closure.case, len(loose), names)
-    return found
+    return solution
 
 
 def mechanisms(scene: Scene) -> list[set[str]]:

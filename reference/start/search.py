@@ -45,7 +45,7 @@ class Closing(Protocol):
         """q with its angles on the turns on which a start has them."""
         ...
 
-    def apart(self, a: Array, b: Array) -> float:
+    def difference(self, a: Array, b: Array) -> float:
         """The largest difference of two solutions, in sizes and rad."""
         ...
 
@@ -66,7 +66,7 @@ def search(
         if nearest is None or gap < nearest[0]:
             nearest = gap, q
         closes = gap < CLOSED * closure.rounding and accepts(q)
-        if closes and all(closure.apart(q, other) > SAME for other in ways):
+        if closes and all(closure.difference(q, other) > SAME for other in ways):
             ways.append(q)
     assert nearest is not None
     return ways, nearest
@@ -100,8 +100,8 @@ def newton(closure: Closing, q: Array) -> tuple[Array, float]:
 
 def least(rows: Array, right: Array) -> Array:
     """(n,) the smallest solution of rows · x = right, or what comes nearest to one."""
-    found: Any = np.linalg.lstsq(rows, right, rcond=RANK)[0]
-    return found
+    solution: Any = np.linalg.lstsq(rows, right, rcond=RANK)[0]
+    return solution
 
 
 def null(rows: Array, n: int, below: float = RANK) -> Array:

@@ -53,7 +53,7 @@ class SpatialClosure(Closure):
 
     def turned(self, wanted: Sequence[float], q: Array, at: int) -> Sequence[float]:
         """Returns the turn (3,) [rad] from one attitude to the other, in the axes of q."""
-        return _between(wanted, q[at : at + 4]).tolist()
+        return _turn_between(wanted, q[at : at + 4]).tolist()
 
     def turns(self, joint: Joint, q: Array) -> Iterator[Coordinate]:
         """Yields the turns of a joint about axes; a ball has none."""
@@ -100,7 +100,7 @@ class SpatialClosure(Closure):
         """Yields the attitudes that placements give of joints."""
         for name, placement in placements.items():
             if name in self.scene.joints and placement.attitude is not None:
-                apart = _between(placement.attitude, self.attitude(name, q)).tolist()
+                apart = _turn_between(placement.attitude, self.attitude(name, q)).tolist()
                 rows = self.relative(self.scene.joints[name], q)
                 for off, row in zip(apart, rows, strict=True):
                     yield Equation(f"{name}.attitude", off, row, angular=True)
@@ -130,12 +130,12 @@ class SpatialClosure(Closure):
         """q: attitudes count no turns."""
         return q
 
-    def apart(self, a: Array, b: Array) -> float:
+    def difference(self, a: Array, b: Array) -> float:
         """The largest difference of places, and of attitudes, which no sign of theirs changes."""
-        one, other = (self.where.poses(q, np.zeros(self.n)) for q in (a, b))
+        first, second = (self.where.poses(q, np.zeros(self.n)) for q in (a, b))
         far = 0.0
-        for name in one:
-            p, s = np.array(one[name][:7], float), np.array(other[name][:7], float)
+        for name in first:
+            p, s = np.array(first[name][:7], float), np.array(second[name][:7], float)
             turned_by = 2 * np.arccos(min(1.0, abs(float(p[3:] @ s[3:]))))
             far = max(far, float(np.max(np.abs(p[:3] - s[:3]))) / self.size, turned_by)
         return far
@@ -235,7 +235,7 @@ class SpatialClosure(Closure):
 
         Three turns make an attitude in two ways: with a last turn of 0 it is another one past it.
         """
-        found = 0
+        count = 0
         for joint in self.scene.joints.values():
             if len(joint.turns) < 3:
                 continue
@@ -247,8 +247,8 @@ class SpatialClosure(Closure):
             axes = [turn.axis for turn in joint.turns]
             first, *_ = chain.turned_by(axes, UP, STILL, made, STILL)
             _, turn, _ = self.turns(joint, q)
-            found += abs(math.remainder(turn.value - float(first.angles[0, 1]), math.tau)) > REACHED
-        return found
+            count += abs(math.remainder(turn.value - float(first.angles[0, 1]), math.tau)) > REACHED
+        return count
 
     def _unnamed(self, q: Array) -> float:
         """The largest turn [rad] of a joint that has turns without a name."""
@@ -287,18 +287,18 @@ class SpatialClosure(Closure):
 
     def _differ_most(self, ways: list[Array]) -> tuple[str, float]:
         """The named coordinate in which ways differ most, and by how much, in rad or sizes."""
-        found: dict[str, float] = {}
+        differences: dict[str, float] = {}
         for joint in self.scene.joints.values():
             for first, *others in zip(*(self.coordinates(joint, q) for q in ways), strict=True):
                 if first.freedom.name:
                     off = [first.value - c.value for c in others]
                     shift = first.freedom.kind == "shift"
-                    found[f"{joint.name}.{first.freedom.name}"] = max(
+                    differences[f"{joint.name}.{first.freedom.name}"] = max(
                         abs(x) / self.size if shift else abs(math.remainder(x, math.tau))
                         for x in off
                     )
-        name = max(found, key=found.__getitem__, default="")
-        return name, found.get(name, 0.0)
+        name = max(differences, key=differences.__getitem__, default="")
+        return name, differences.get(name, 0.0)
 
     def shown(self, q: Array, name: str) -> str:
         """Returns the value of a coordinate as a file has it, or an attitude."""
@@ -310,14 +310,14 @@ class SpatialClosure(Closure):
 
         Of joints first, then of bodies that none holds, then of others as far as these tell less.
         """
-        joints = {name: rows for name, rows in self._of_joints(q) if _moved(loose, rows) > small}
+        joints = {name: rows for name, rows in self._of_joints(q) if _change(loose, rows) > small}
         held = {end.body for joint in self.scene.joints.values() for end in joint.refers()}
         free = self._open_places(loose, small)
-        told = {**joints, **{name: rows for name, rows in free.items() if _body(name) not in held}}
-        for name, rows in sorted(free.items(), key=lambda one: not one[0].endswith(".attitude")):
-            if _told(loose, [*told.values(), rows]) > _told(loose, [*told.values()]):
-                told[name] = rows
-        return [*told]
+        ways = {**joints, **{name: rows for name, rows in free.items() if _body(name) not in held}}
+        for name, rows in sorted(free.items(), key=lambda item: not item[0].endswith(".attitude")):
+            if _rank(loose, [*ways.values(), rows]) > _rank(loose, [*ways.values()]):
+                ways[name] = rows
+        return [*ways]
 
     def _of_joints(self, q: Array) -> Iterator[tuple[str, Array]]:
         """Yields the coordinates of joints by name, with their rows in units of the size.
@@ -343,17 +343,17 @@ class SpatialClosure(Closure):
             rows.setdefault(f"{body}.{places.get(rate, 'attitude')}", []).append(row)
         stacked = {name: np.array(several) for name, several in rows.items()}
         return {
-            name: several for name, several in stacked.items() if _moved(loose, several) > small
+            name: several for name, several in stacked.items() if _change(loose, several) > small
         }
 
 
-def _moved(loose: Array, rows: Array) -> float:
-    """By how much directions (k, n) change what has these rows."""
+def _change(loose: Array, rows: Array) -> float:
+    """Largest change along directions (k, n) of the quantity with these rows."""
     return float(np.max(np.abs(loose @ rows.T), initial=0.0))
 
 
-def _told(loose: Array, rows: Sequence[Array]) -> int:
-    """How many of the directions (k, n) all rows together tell apart."""
+def _rank(loose: Array, rows: Sequence[Array]) -> int:
+    """Rank of all rows together along the directions (k, n)."""
     return rank(loose @ np.vstack(rows).T) if rows else 0
 
 
@@ -372,8 +372,8 @@ def chains(scene: Scene) -> list[set[str]]:
     return joined((GROUND, *scene.bodies), [{joint.a.body, joint.b.body} for joint in joints])
 
 
-def _between(wanted: Sequence[float], q: Array) -> Array:
-    """(3,) [rad] the turn from one attitude to the other, in the axes of q."""
+def _turn_between(wanted: Sequence[float], q: Array) -> Array:
+    """(3,) Turn [rad] from one attitude to the other, in the axes of q."""
     d = product(inverse(np.array(wanted)), q / np.linalg.norm(q))
     half = float(np.linalg.norm(d[1:]))
     angle = 2 * np.arctan2(half, abs(d[0])) * (1.0 if d[0] >= 0 else -1.0)

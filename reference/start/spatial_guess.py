@@ -37,13 +37,13 @@ def laid_out(
         if stands and (placement.attitude is not None or (placement.points and not seeds)):
             known[name] = _placed(scene, name, placement)
     while len(known) <= len(scene.bodies):
-        found = _next(scene, known, given, seeds)
-        if found is None:
-            left = [name for name in scene.bodies if name not in known]
-            placed = {name: given.get(name, Placement()) for name in left}
-            name = min(left, key=lambda name: placed[name].attitude is None)
-            found = name, _placed(scene, name, placed[name])
-        known[found[0]] = found[1]
+        next_body = _next(scene, known, given, seeds)
+        if next_body is None:
+            unplaced = [name for name in scene.bodies if name not in known]
+            placed = {name: given.get(name, Placement()) for name in unplaced}
+            name = min(unplaced, key=lambda name: placed[name].attitude is None)
+            next_body = name, _placed(scene, name, placed[name])
+        known[next_body[0]] = next_body[1]
     poses = {name: (*r, *e, *np.zeros(6)) for name, (r, e) in known.items() if name != GROUND}
     return where.place(poses)[0]
 
@@ -69,26 +69,26 @@ def _next(
             continue
         placement = given.get(joint.name, Placement())
         values = {**seeds.get(joint.name, {}), **placement.given}
-        shift, turn = _moved(joint, values, placement.attitude)
+        shift, turn = _relative_pose(joint, values, placement.attitude)
         if a:
             r, e = known[joint.a.body]
-            own = _own(given, joint.b.body, product(e, turn))
+            own = _attitude_of(given, joint.b.body, product(e, turn))
             at = r + turned(e, _local(scene, joint.a) + shift)
             return joint.b.body, (at - turned(own, _local(scene, joint.b)), own)
         r, e = known[joint.b.body]
-        own = _own(given, joint.a.body, product(e, inverse(turn)))
+        own = _attitude_of(given, joint.a.body, product(e, inverse(turn)))
         at = r + turned(e, _local(scene, joint.b))
         return joint.a.body, (at - turned(own, _local(scene, joint.a) + shift), own)
     return None
 
 
-def _own(given: Mapping[str, Placement], body: str, hung: Array) -> Array:
+def _attitude_of(given: Mapping[str, Placement], body: str, hung: Array) -> Array:
     """The attitude (4,) that is given of a body, or the one with which it hangs."""
     attitude = given.get(body, Placement()).attitude
     return hung if attitude is None else np.array(attitude)
 
 
-def _moved(
+def _relative_pose(
     joint: Joint, values: Mapping[str, float], attitude: tuple[float, ...] | None
 ) -> tuple[Array, Array]:
     """The shift (3,) in the axes of the first part, and the turn of the second (4,)."""
@@ -136,7 +136,7 @@ def off_by(
     def off(turns: bool = False) -> float:
         return float(rng.uniform(-far, far)) * (1.0 if turns else size)
 
-    found: dict[str, Placement] = {}
+    placements: dict[str, Placement] = {}
     for name, said in near.items():
         joint = scene.joints.get(name)
         turns = {} if joint is None else {f.name: f.kind == "turn" for f in joint.named}
@@ -148,5 +148,5 @@ def off_by(
             length = math.hypot(x, y, z)
             turn = about((x / length, y / length, z / length), off(turns=True))
             e = tuple(product(np.array(e), np.array(turn)).tolist())
-        found[name] = replace(said, given=given, points=points, attitude=e)
-    return found
+        placements[name] = replace(said, given=given, points=points, attitude=e)
+    return placements

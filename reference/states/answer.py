@@ -48,21 +48,21 @@ def answered(case: Case) -> tuple[Trajectory, tuple[Check, ...]]:
     written = _written(case, generated)
     tell = partial(derived, generated, case.scene, set(case.allow))
     built = _trajectory(case, generated, tell, rows(case, generated))
-    found, others, checks = built, {}, []
+    motion, others, checks = built, {}, []
     if written is not None:
         own = _trajectory(case, written, written.quantities, rows(case, written))
         others = {"generated": built}
         # what a system does not tell is the generated mechanism's
-        found = replace(own, reactions={**built.reactions, **own.reactions})
-        checks.append(Check("generated states", _apart(case, found, built), LAW))
+        motion = replace(own, reactions={**built.reactions, **own.reactions})
+        checks.append(Check("generated states", _difference(case, motion, built), LAW))
     if case.scene.frame is SPACE:
         worked, size = _worked(case, generated, built)
-        checks += _chained(case, generated, built, worked, size)
+        checks += _chain_checks(case, generated, built, worked, size)
         others = {**others, "d'Alembert": worked}
-    checks += errors(case, found, {**others, **_rounded(case)}, 0.0)
-    if mistakes := [*beyond(case, checks), *_constant(case, found)]:
+    checks += errors(case, motion, {**others, **_rounding_answers(case)}, 0.0)
+    if mistakes := [*beyond(case, checks), *_constant_mistakes(case, motion)]:
         raise CaseError(mistakes)
-    return found, tuple(checks)
+    return motion, tuple(checks)
 
 
 def first_state(case: Case) -> dict[str, Pose]:
@@ -86,14 +86,14 @@ def _written(case: Case, generated: Stated) -> Stated | None:
         what = f"{case.system!r} answers for a motion; of states there are {known}"
         raise CaseError([case.mistake(("system",), what)])
     try:
-        found = STATED[case.system](**case.parameters)
+        system = STATED[case.system](**case.parameters)
     except ValueError as error:
         raise CaseError([case.mistake(("parameters",), f"{case.system}: {error}")]) from error
-    if set(found.coordinates) != set(generated.coordinates):
-        ours, theirs = (", ".join(mode.coordinates) for mode in (found, generated))
+    if set(system.coordinates) != set(generated.coordinates):
+        ours, theirs = (", ".join(mode.coordinates) for mode in (system, generated))
         what = f"{case.system!r} has the coordinates {ours}; the scene has {theirs}"
         raise CaseError([case.mistake(("system",), what)])
-    return found
+    return system
 
 
 def rows(case: Case, mode: Stated) -> Iterator[Row]:
@@ -115,26 +115,26 @@ def _trajectory(
 ) -> Trajectory:
     """The poses of a mode, and what is told for each q, q̇ and q̈."""
     states: dict[str, list[object]] = {}
-    told: dict[str, list[object]] = {}
+    quantities: dict[str, list[object]] = {}
     for q, v, a in given:
         for name, pose in mode.poses(0.0, q, v).items():
             states.setdefault(name, []).append(pose)
         for name, value in tell(q, v, a).items():
-            told.setdefault(name, []).append(value)
+            quantities.setdefault(name, []).append(value)
     return Trajectory(
         case.times,
         {name: np.array(poses, float) for name, poses in states.items()},
-        {name: np.array(values, float).ravel() for name, values in told.items()},
+        {name: np.array(values, float).ravel() for name, values in quantities.items()},
     )
 
 
-def _rounded(case: Case) -> dict[str, Trajectory]:
+def _rounding_answers(case: Case) -> dict[str, Trajectory]:
     """Answers for numbers that a few roundings have changed, of the scene and of the states.
 
     What cancels in a quantity, of long arms or of loads that are balanced, is not seen in its
     size: by how much these answers differ is how well it is known.
     """
-    found, random = dict[str, Trajectory](), np.random.default_rng(ROUNDED)
+    answers, random = dict[str, Trajectory](), np.random.default_rng(ROUNDED)
     assert case.states is not None
     turns = np.array([unit == "rad" for unit in coordinates(case.scene).values()])
 
@@ -145,18 +145,18 @@ def _rounded(case: Case) -> dict[str, Trajectory]:
         return x * (1.0 + OF_STATE * off(x))
 
     for k in range(-(-ROUNDED // case.states.random)):
-        scene = _altered(case.scene, lambda x: x * (1.0 + OF_SCENE * off(x)))
+        scene = _changed_scene(case.scene, lambda x: x * (1.0 + OF_SCENE * off(x)))
         mode = generated_mode(replace(case, scene=scene))
         tell = partial(derived, mode, scene, set(case.allow))
         moved = (
             (np.where(turns, q + OF_STATE * off(q), near(q)), near(v), near(a))
             for q, v, a in rows(case, mode)
         )
-        found[f"rounded {k}"] = _trajectory(case, mode, tell, moved)
-    return found
+        answers[f"rounded {k}"] = _trajectory(case, mode, tell, moved)
+    return answers
 
 
-def _altered(scene: Scene, alter: Callable[[Array], Array]) -> Scene:
+def _changed_scene(scene: Scene, alter: Callable[[Array], Array]) -> Scene:
     """The scene with other places, masses and inertias."""
 
     def all_of(x: Sequence[float]) -> tuple[float, ...]:
@@ -175,24 +175,24 @@ def _altered(scene: Scene, alter: Callable[[Array], Array]) -> Scene:
     return replace(scene, bodies=bodies, points=points)
 
 
-def _apart(case: Case, one: Trajectory, other: Trajectory) -> float:
+def _difference(case: Case, first: Trajectory, second: Trajectory) -> float:
     """The largest difference of states, of what both tell, and of all that is claimed.
 
     Relative to the largest of a unit: what stays zero, as the x of a vertical axis, trembles.
     """
-    names = {*case.allow, *(one.reactions.keys() & other.reactions.keys())}
+    names = {*case.allow, *(first.reactions.keys() & second.reactions.keys())}
     known = case.quantities
     units = {name: known[name].unit if name in known else name for name in names}
     pairs = [
-        (unit, *(observe(case.scene, found, name) for found in (one, other)))
+        (unit, *(observe(case.scene, motion, name) for motion in (first, second)))
         for name, unit in units.items()
         if not name.endswith(".attitude")  # of which the states tell
     ]
     sizes: dict[str, float] = {}
     for unit, own, _ in pairs:
         sizes[unit] = max(sizes.get(unit, 0.0), worst(np.abs(own)))
-    told = (relative(own, others, least=sizes[unit]) for unit, own, others in pairs)
-    return worst([difference(one, other), *told])
+    differences = (relative(own, others, least=sizes[unit]) for unit, own, others in pairs)
+    return worst([difference(first, second), *differences])
 
 
 def _worked(case: Case, mode: Stated, built: Trajectory) -> tuple[Trajectory, float]:
@@ -205,7 +205,7 @@ def _worked(case: Case, mode: Stated, built: Trajectory) -> tuple[Trajectory, fl
     return replace(built, reactions={**built.reactions, **loads}), size
 
 
-def _chained(
+def _chain_checks(
     case: Case, mode: Stated, built: Trajectory, worked: Trajectory, size: float
 ) -> Iterator[Check]:
     """The chain against what its joints hold, and Lagrange's equations against d'Alembert's."""
@@ -213,17 +213,17 @@ def _chained(
     yield Check("joints hold (2.10), (2.15)", unheld(mode, case.scene, rows(case, mode)), LAW)
     read = misread(case.scene, built, case.states.drawn(case.scene))
     yield Check("coordinates read back", read, LAW)
-    apart = (
+    error = (
         relative(built.reactions[effort], worked.reactions[effort], least=size)
         for _, effort in efforts(case.scene)
     )
-    yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(apart), LAW)
+    yield Check("Lagrange (2.44) against d'Alembert (2.39)", worst(error), LAW)
 
 
-def _constant(case: Case, found: Trajectory) -> Iterator[Mistake]:
+def _constant_mistakes(case: Case, motion: Trajectory) -> Iterator[Mistake]:
     for name in case.allow:
         if case.quantities[name].kind in VARYING:
-            samples = observe(case.scene, found, name)
+            samples = observe(case.scene, motion, name)
             if np.ptp(samples, axis=0).max() == 0.0:
                 yield case.mistake(("allow", name), "is the same in every state; leave it out")
 
@@ -241,29 +241,29 @@ THREE = 3  # turns, of which other angles make the same attitude
 def unheld(mode: Stated, scene: Scene, rows: Iterator[Row]) -> float:
     """(2.10), (2.15) The largest of f = 0, f_a v = 0 and f_a v̇ = γ, each of its largest term."""
     base = SpatialMultibody(scene, (np.zeros(0), np.zeros(0)))
-    found: list[float] = []
+    errors: list[float] = []
     for q, v, a in rows:
         poses, changes = mode.poses(0.0, q, v), moving(mode, q, v, a)
         at, rates = base.place(poses)
         _, accelerations = base.place({name: tuple(x) for name, x in changes.items()})
         f_a, g, gamma = base.rows(0.0, at, rates)
-        found.append(worst(np.abs(base.f(0.0, at))) / max(1.0, _arms(scene), worst(np.abs(at))))
+        errors.append(worst(np.abs(base.f(0.0, at))) / max(1.0, _arms(scene), worst(np.abs(at))))
         for held, right in ((rates, g), (accelerations, gamma)):
             size = worst(np.abs(f_a * held).ravel()) or 1.0
-            found.append(worst(np.abs(f_a @ held - right)) / size)
-    return worst(found)
+            errors.append(worst(np.abs(f_a @ held - right)) / size)
+    return worst(errors)
 
 
-def misread(scene: Scene, found: Trajectory, drawn: dict[str, Array]) -> float:
+def misread(scene: Scene, trajectory: Trajectory, drawn: dict[str, Array]) -> float:
     """How far coordinates and rates that joints read from the poses are from what was drawn."""
     near = {  # states are unrelated: no turn is counted from one to the next
         joint.name: np.stack([drawn[f"{joint.name}.{turn.name}"][:, 0] for turn in joint.turns], 1)
         for joint in scene.joints.values()
         if joint.turns
     }
-    motion = Motion(scene.bodies, scene.points, replace(found, near=near))
-    apart: list[float] = []
-    places = [states[:, scene.frame.place] for states in found.states.values()]
+    motion = Motion(scene.bodies, scene.points, replace(trajectory, near=near))
+    errors: list[float] = []
+    places = [states[:, scene.frame.place] for states in trajectory.states.values()]
     size = max(_arms(scene), worst(np.abs(x).max() for x in places))  # of which shifts are left
     for joint in scene.joints.values():
         read, rates = joint.coordinates(motion)
@@ -271,12 +271,12 @@ def misread(scene: Scene, found: Trajectory, drawn: dict[str, Array]) -> float:
             place, rate, _ = drawn[f"{joint.name}.{freedom.name}"].T
             if freedom.kind == "turn" and len(joint.turns) == THREE:
                 continue
-            apart.append(relative(rate, rates[:, k], least=1.0))
-            off, least = place - read[:, k], size
+            errors.append(relative(rate, rates[:, k], least=1.0))
+            error, least = place - read[:, k], size
             if freedom.kind == "turn":
-                off, least = np.remainder(off + np.pi, 2 * np.pi) - np.pi, 1.0
-            apart.append(worst(np.abs(off)) / max(1.0, least, worst(np.abs(place))))
-    return worst(apart)
+                error, least = np.remainder(error + np.pi, 2 * np.pi) - np.pi, 1.0
+            errors.append(worst(np.abs(error)) / max(1.0, least, worst(np.abs(place))))
+    return worst(errors)
 
 
 def _arms(scene: Scene) -> float:
@@ -302,11 +302,11 @@ class FreeBodies(Stated):
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.9) X_k, E_k: a free body's coordinates are its own parameters."""
         at = {name: (q[i], v[i]) for i, name in enumerate(self.coordinates)}
-        found: dict[str, Pose] = {}
+        poses: dict[str, Pose] = {}
         for name in self.masses:
             both = [at.get(f"{name}.{own}", (0.0, 0.0)) for own in ("x", "y", "angle")]
-            found[name] = (*(place for place, _ in both), *(rate for _, rate in both))
-        return found
+            poses[name] = (*(place for place, _ in both), *(rate for _, rate in both))
+        return poses
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = Σ ½ m ṙ_c² + ½ J₃₃ ω² [J]."""

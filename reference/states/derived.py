@@ -28,7 +28,7 @@ def derived(
 
     Accelerations are the derivatives of velocities; of points those alone that are wanted.
     """
-    found: dict[str, Any] = {}
+    quantities: dict[str, Any] = {}
     each = spatial if scene.frame is SPACE else planar
     for name, body in scene.bodies.items():
         for end in ("", *(f".{point}" for point in body.points)):
@@ -36,15 +36,15 @@ def derived(
             if not wanted.isdisjoint(names):
                 x = np.array([*body.points.get(end[1:], ()), 0.0, 0.0, 0.0])[:3]
                 rates = changing(lambda pose, x=x: each(pose, x)[0], mode, name, q, v, a)
-                found |= dict(zip(names, rates.tolist(), strict=False))
+                quantities |= dict(zip(names, rates.tolist(), strict=False))
         if body.turns and scene.frame is SPACE:
             alpha = changing(lambda pose: each(pose, np.zeros(3))[1], mode, name, q, v, a)
-            found |= {f"{name}.alpha_{i}": x for i, x in zip("xyz", alpha, strict=True)}
+            quantities |= {f"{name}.alpha_{i}": x for i, x in zip("xyz", alpha, strict=True)}
         numbers = body.numbers().items()
-        found |= {f"{name}.{key}": x for key, x in numbers if key.startswith("inertia")}
+        quantities |= {f"{name}.{key}": x for key, x in numbers if key.startswith("inertia")}
     if scene.frame is SPACE:
-        return found | resisting(mode, scene, q, v, a)
-    return found | slowed(scene, q, v)
+        return quantities | resisting(mode, scene, q, v, a)
+    return quantities | slowed(scene, q, v)
 
 
 @equation
@@ -53,15 +53,15 @@ def slowed(scene: Scene, q: Array, v: Array) -> dict[str, float]:
 
     By the complex step: a point moves with its body, so that ∂ṙ_P/∂ṙ_c = 1.
     """
-    where, found = Coordinates(scene), {}
+    where, forces = Coordinates(scene), {}
     for name, force in scene.forces.items():
         (at,) = force.refers()
         xy, _ = where.columns[at.body]
         ways = np.eye(len(v))[xy : xy + 2]
         D = partial(Ingredients(where, actions([force])).D, 0.0, q)
         fx, fy = (-along(D, (v,), (way,)).item() for way in ways)
-        found |= {f"{name}.fx": fx, f"{name}.fy": fy, f"{name}.force": math.hypot(fx, fy)}
-    return found
+        forces |= {f"{name}.fx": fx, f"{name}.fy": fy, f"{name}.force": math.hypot(fx, fy)}
+    return forces
 
 
 def changing(
@@ -123,7 +123,7 @@ def by_virtual_work(
     """
     poses, changes = mode.poses(0.0, q, v), moving(mode, q, v, a)
     still = mode.poses(0.0, q, 0.0 * v)
-    found = dict.fromkeys(mode.coordinates, (0.0, 0.0))
+    works = dict.fromkeys(mode.coordinates, (0.0, 0.0))
     for name, e in zip(mode.coordinates, np.eye(len(v)), strict=True):
         virtual = mode.poses(0.0, q, e)
         for body, mass in mode.masses.items():
@@ -137,6 +137,6 @@ def by_virtual_work(
             fast = np.linalg.norm(mass.J) * (omega @ omega)
             size = np.abs(force) @ np.abs(way[SPACE.velocity])
             size += (np.abs(moment) + fast) @ np.abs(way[SPACE.spin])
-            work, largest = found[name]
-            found[name] = work + done, largest + float(size)
-    return found
+            work, largest = works[name]
+            works[name] = work + done, largest + float(size)
+    return works

@@ -66,14 +66,14 @@ class SpatialChain(Stated):
         """
         at = {name: (q[i], v[i]) for i, name in enumerate(self.coordinates)}
         still = np.zeros((3, *np.shape(v)[1:]))
-        found = {GROUND: (Moving(np.zeros(3), UPRIGHT, still, still), np.zeros(3))}
-        while len(found) <= len(self.scene.bodies):
+        frames = {GROUND: (Moving(np.zeros(3), UPRIGHT, still, still), np.zeros(3))}
+        while len(frames) <= len(self.scene.bodies):
             for joint in self.scene.joints.values():
-                if joint.a.body in found and joint.b.body not in found:
-                    part, hangs = found[joint.a.body]
+                if joint.a.body in frames and joint.b.body not in frames:
+                    part, hangs = frames[joint.a.body]
                     frame = self._moved(joint, part.at(self._point(joint.a) - hangs), at)
-                    found[joint.b.body] = frame, self._point(joint.b)
-        return {name: found[name][0].at(-found[name][1]) for name in self.scene.bodies}
+                    frames[joint.b.body] = frame, self._point(joint.b)
+        return {name: frames[name][0].at(-frames[name][1]) for name in self.scene.bodies}
 
     def _moved(self, joint: Joint, frame: Moving, at: dict[str, tuple[Any, Any]]) -> Moving:
         """By all freedoms of the joint."""
@@ -96,12 +96,12 @@ class SpatialChain(Stated):
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.54) T = Σ ½ m ṙ_c² + ½ J_ik ω_i ω_k [J] of the rates (n,) or (n, K)."""
-        found: Any = 0.0
+        energy: Any = 0.0
         for name, at in self._bodies(q, v).items():
             mass, omega = self.masses[name], at.R.T @ at.omega
             own = np.sum(omega * (mass.J @ omega), axis=0)
-            found = found + (mass.m * np.sum(at.r_dot**2, axis=0) + own) / 2
-        return found
+            energy = energy + (mass.m * np.sum(at.r_dot**2, axis=0) + own) / 2
+        return energy
 
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = −Σ m g·r_c [J]."""

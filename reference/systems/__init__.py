@@ -103,5 +103,5 @@ def written(name: str, parameters: Mapping[str, float]) -> System:
 
     Raises KeyError for an unknown name, TypeError for other parameters than the system's.
     """
-    found = SYSTEMS[name](**parameters)
-    return Only(found) if isinstance(found, Mode) else found
+    system = SYSTEMS[name](**parameters)
+    return Only(system) if isinstance(system, Mode) else system

@@ -70,8 +70,8 @@ PREMISES = {
     "assumptions.py::_slipping_between": (
         "test_samples.py::test_a_premise_is_asked_between_the_steps"
     ),
-    "assumptions.py::_still": "test_premises.py::test_what_rests_has_to_say_so",
-    "assumptions.py::_struck": (
+    "assumptions.py::_motionless": "test_premises.py::test_what_rests_has_to_say_so",
+    "assumptions.py::_blow_work": (
         "certificate/test_errors.py::test_work_of_a_drive_through_a_blow_is_refused"
     ),
     "assumptions.py::check_start": "test_premises.py::test_a_written_system_has_the_scenes_bodies",
@@ -85,7 +85,7 @@ PREMISES = {
     "states/answer.py::_written": (
         "states/test_answer.py::test_a_system_of_other_coordinates_is_refused"
     ),
-    "states/answer.py::_constant": (
+    "states/answer.py::_constant_mistakes": (
         "states/test_answer.py::test_what_is_the_same_in_every_state_is_no_claim"
     ),
 }

@@ -205,7 +205,7 @@ def test_what_finds_no_memory_is_told_with_its_scene(monkeypatch: pytest.MonkeyP
     def moved(case: Case) -> None:
         np.ones(2**50)  # of no machine
 
-    monkeypatch.setattr(solving, "_moved", moved)
+    monkeypatch.setattr(solving, "_solve_islands", moved)
     mistake = refused(case)
     assert (mistake.where, mistake.line > 1) == ("scene", True)
     assert "needs more memory than its process may take (Unable to allocate 8.00 P" in mistake.what

@@ -22,7 +22,7 @@ COMPONENTS = {"fx": 0, "fy": 1, "fz": 2, "mx": 0, "my": 1, "mz": 2}
 
 @dataclass(frozen=True)
 class Constraint(Numbered):
-    """In each row the sum of the terms is zero, and what it is the rate of stays what it is."""
+    """Rows f_a v − g = 0 as sums of terms; what a row is the rate of stays constant."""
 
     part: str  # the joint or contact it belongs to
     ends: tuple[Anchor, ...]  # the points that the terms name by their place here
@@ -65,7 +65,7 @@ class Constraint(Numbered):
 
     @cached_property
     def alone(self) -> Table:
-        """Its rows without those of others."""
+        """A table of its rows alone."""
         return Table(self.where, [self])
 
     # What a table asks, to write its rows down.
@@ -79,20 +79,20 @@ class Constraint(Numbered):
         """The place of each row; None where a term has none."""
         ends = self._ends(k)
         each = [[term.place(k, ends) for term in terms] for terms in self.rows]
-        return [None if None in found else sum(found) for found in each]
+        return [None if None in places else sum(places) for places in each]
 
     def exerted(self, k: Kinematics) -> list[dict[str, Any]]:
         """For each row its reactions, of a multiplier 1."""
-        ends, found = self._ends(k), []
+        ends, reactions = self._ends(k), []
         for terms, names in zip(self.rows, self.names, strict=True):
             u = terms[0].direction(k, ends)
-            found.append(
+            reactions.append(
                 {
                     f"{self.part}.{name}": u[COMPONENTS[name]] if name in COMPONENTS else 1.0
                     for name in names
                 }
             )
-        return found
+        return reactions
 
     def _ends(self, k: Kinematics) -> list[Point]:
         return [k.point(end) for end in self.ends]
@@ -116,9 +116,9 @@ def row(part: Constraint, t: float, q: Any, v: Any) -> tuple[Any, float, float]:
 @equation
 def residuals(table: Table, parts: Sequence[Constraint], t: Any, q: Numbers) -> list[Any]:
     """(2.14) f of those of the parts that are holonomic, (≤ r,), from a table that has them."""
-    places, found = table.places(t, q), []
+    places, errors = table.places(t, q), []
     for part in parts:
         if part.held is not None:
             at = zip(table.places_of([part]).tolist(), part.held, strict=True)
-            found += [places[i] - where for i, where in at if where is not None]
-    return found
+            errors += [places[i] - where for i, where in at if where is not None]
+    return errors

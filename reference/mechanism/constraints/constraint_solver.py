@@ -34,10 +34,10 @@ class Holding:
             return self.band.held(t, q, v)
         rows, _, gamma = self.rows(t, q, v)
         by_mass = self.columns(t, q, v, rows) / self.M
-        found = full(rows, gamma, by_mass, leans=bool(self._coulomb))
+        held = full(rows, gamma, by_mass, leans=bool(self._coulomb))
         if self._constant:
-            self._always = found
-        return found
+            self._always = held
+        return held
 
     def columns(self, t: float, q: Array, v: Array, rows: Array) -> Array:
         """Generalized force of a unit of each multiplier, (r, n): its row and its friction.
@@ -137,39 +137,39 @@ def band(rows: Rows, M: Array) -> Band | None:
     place, width = _order(pattern @ pattern.T)
     if width > NARROW * r:
         return None
-    one, two = _pairs(column)
-    lower = place[row[one]] <= place[row[two]]
-    one, two = one[lower], two[lower]
-    near, far = place[row[one]], place[row[two]]
-    return Band(rows, M, place, width, row, column, one, two, near * (width + 1) + far - near)
+    first, second = _pairs(column)
+    lower = place[row[first]] <= place[row[second]]
+    first, second = first[lower], second[lower]
+    near, far = place[row[first]], place[row[second]]
+    return Band(rows, M, place, width, row, column, first, second, near * (width + 1) + far - near)
 
 
 def _sums(at: Index, values: Array, count: int) -> Array:
     """The values that belong to each of `count` places, added up."""
-    found: Any = np.bincount(at, values, count)
-    return found
+    sums: Any = np.bincount(at, values, count)
+    return sums
 
 
 def _order(shared: Any) -> tuple[Index, int]:
-    """A place for each row, and how far apart those are that share a body."""
+    """An order of the rows with a small bandwidth, and that bandwidth."""
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
     row, column = shared.nonzero()
-    found = []  # as written, or better
+    orders = []  # as written, or better
     for order in (np.arange(shared.shape[0]), reverse_cuthill_mckee(shared.tocsr(), True)):
         place = np.argsort(order)
-        found.append((place, int(np.max(np.abs(place[row] - place[column])))))
-    return min(found, key=lambda pair: pair[1])
+        orders.append((place, int(np.max(np.abs(place[row] - place[column])))))
+    return min(orders, key=lambda pair: pair[1])
 
 
 def _pairs(column: Index) -> tuple[Index, Index]:
     """Two arrays of indices: every pair of entries that stand in one column, in both orders."""
     pairs = [
-        (one, two)
+        (first, second)
         for k in np.unique(column)
         for entries in [np.flatnonzero(column == k)]
-        for one in entries
-        for two in entries
+        for first in entries
+        for second in entries
     ]
-    one, two = np.transpose(pairs)
-    return one, two
+    first, second = np.transpose(pairs)
+    return first, second

@@ -123,7 +123,7 @@ class Apart(Numbered):
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) u·Δ̇, and u̇ = (Δ̇ − (u·Δ̇) u)/λ."""
         a, b = ends[self.a], ends[self.b]
-        return k.line(a, b, _between(k, a, b))
+        return k.line(a, b, _unit_vector(k, a, b))
 
     def place(self, k: Kinematics, ends: Ends) -> Any:
         """λ [m]."""
@@ -132,7 +132,7 @@ class Apart(Numbered):
 
     def direction(self, k: Kinematics, ends: Ends) -> Vec:
         """u."""
-        return _between(k, ends[self.a], ends[self.b]).u
+        return _unit_vector(k, ends[self.a], ends[self.b]).u
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ class Around(Numbered):
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) w·Δ̇, and ẇ turns with u̇."""
         a, b = ends[self.a], ends[self.b]
-        c = _between(k, a, b)
+        c = _unit_vector(k, a, b)
         return k.line(a, b, Direction(_right(c.u), _right(c.u_dot)))
 
     def place(self, k: Kinematics, ends: Ends) -> None:
@@ -179,7 +179,7 @@ class Around(Numbered):
 
     def direction(self, k: Kinematics, ends: Ends) -> Vec:
         """w."""
-        return _right(_between(k, ends[self.a], ends[self.b]).u)
+        return _right(_unit_vector(k, ends[self.a], ends[self.b]).u)
 
 
 @dataclass(frozen=True)
@@ -272,10 +272,10 @@ class Turn(Numbered):
     angular = True
 
     def _axis(self, k: Kinematics, ends: Ends) -> tuple[Vec, Vec]:
-        one = k.carried(ends[self.a].part, self.first)
-        other = k.carried(ends[self.b].part, self.last)
+        first = k.carried(ends[self.a].part, self.first)
+        last = k.carried(ends[self.b].part, self.last)
         own, beside = self.weights
-        return one.u * own + other.u * beside, one.u_dot * own + other.u_dot * beside
+        return first.u * own + last.u * beside, first.u_dot * own + last.u_dot * beside
 
     def row(self, k: Kinematics, ends: Ends) -> Row:
         """(2.15) m·(ω_b − ω_a), and γ = −ṁ·(ω_b − ω_a)."""
@@ -362,7 +362,7 @@ def opposite(u: Numbers) -> Numbers:
     return tuple(-x for x in u)
 
 
-def _between(k: Kinematics, a: Point, b: Point) -> Direction:
+def _unit_vector(k: Kinematics, a: Point, b: Point) -> Direction:
     """u, with its rate (Δ̇ − (u·Δ̇) u)/λ."""
     d, d_dot = b.r - a.r, b.r_dot - a.r_dot
     squared = d @ d

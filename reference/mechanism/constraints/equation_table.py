@@ -20,7 +20,7 @@ G, GAMMA = -2, -1  # where g and γ stand in a row of n + 2 numbers
 
 
 class Held(Protocol):
-    """A constraint, as far as its rows go."""
+    """What the table needs of a constraint: its rows."""
 
     @property
     def size(self) -> int: ...
@@ -30,7 +30,7 @@ class Held(Protocol):
 
 
 class Acting(Protocol):
-    """A force element, as far as the table asks it."""
+    """What the table needs of a force element: its loads."""
 
     name: str
 
@@ -97,9 +97,9 @@ class Table(Numbered):
     @cached_property
     def pattern(self) -> Any:
         """(size, n) whether an entry of the rows is ever anything but zero."""
-        found = np.zeros(self._fixed.shape, bool)
-        found.reshape(-1)[self._written[1]] = True
-        return (found | (self._fixed != 0.0))[: self.size, : self.n]
+        nonzero = np.zeros(self._fixed.shape, bool)
+        nonzero.reshape(-1)[self._written[1]] = True
+        return (nonzero | (self._fixed != 0.0))[: self.size, : self.n]
 
     def constant(self, places: Any) -> bool:
         """Whether these rows are the same at every state."""
@@ -134,37 +134,37 @@ class Table(Numbered):
     def _located(self) -> tuple[Compiled, list[float | None]]:
         """The places of the rows, and which rows have one."""
         k = Kinematics(self.where)
-        return _apart(k, [place for c in self.constraints for place in c.located(k)])
+        return _split(k, [place for c in self.constraints for place in c.located(k)])
 
     def places(self, t: Any, q: Sequence[Any]) -> list[Any]:
         """The place [m or rad] that each row is the rate of; nan of what is the rate of none."""
-        found, numbers = self._located
-        changing = iter(found(t, q))
+        function, numbers = self._located
+        changing = iter(function(t, q))
         return [next(changing) if x is None else x for x in numbers]
 
     @cached_property
     def _exerted(self) -> tuple[Compiled, list[float | None], list[tuple[int, str]]]:
         k = Kinematics(self.where)
-        each = [told for c in self.constraints for told in c.exerted(k)]
-        names = [(i, name) for i, told in enumerate(each) for name in told]
-        return *_apart(k, [x for told in each for x in told.values()]), names
+        each = [reactions for c in self.constraints for reactions in c.exerted(k)]
+        names = [(i, name) for i, reactions in enumerate(each) for name in reactions]
+        return *_split(k, [x for reactions in each for x in reactions.values()]), names
 
     def reactions(
         self, t: float, q: Sequence[Any], multipliers: Mapping[int, Any]
     ) -> dict[str, Any]:
         """(2.60) R_a = λ_b f_aᵇ: by quantity what the multipliers of these rows exert."""
-        found, numbers, names = self._exerted
-        changing = iter(found(t, q))
-        told: dict[str, Any] = {}
+        function, numbers, names = self._exerted
+        changing = iter(function(t, q))
+        reactions: dict[str, Any] = {}
         for (i, name), x in zip(names, numbers, strict=True):
             factor = next(changing) if x is None else x
             if i in multipliers:
-                told[name] = told.get(name, 0.0) + multipliers[i] * factor
-        return told
+                reactions[name] = reactions.get(name, 0.0) + multipliers[i] * factor
+        return reactions
 
 
-def _apart(k: Kinematics, numbers: Sequence[Any]) -> tuple[Compiled, list[float | None]]:
-    """The function of those that change, and the others as they are; None: one that changes."""
+def _split(k: Kinematics, numbers: Sequence[Any]) -> tuple[Compiled, list[float | None]]:
+    """A function of the numbers that change, and the constant ones, None where one changes."""
     changing = [x for x in numbers if x is not None and not is_number(x)]
     fixed = [None if not is_number(x) else np.nan if x is None else float(x) for x in numbers]
     return k.tape.compiled(changing), fixed

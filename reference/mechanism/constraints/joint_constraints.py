@@ -47,20 +47,20 @@ def constraints(
     """The constraints that always hold; without a start, rolling is known as a rate only."""
     if where.frame is not PLANE:
         return list(_in_space(scene, where))
-    found = []
+    parts = []
     for joint in scene.joints.values():
         held = jointed(joint, where)
         if start is not None:
             held = _rolling(held, start) if held.held is None else _on_its_turn(held, start)
-        found.append(held)
-    found += [edged(edge, where) for edge in scene.constraints.values()]
-    found += [driven(scene, quantity, law, where) for quantity, law in scene.drives.items()]
+        parts.append(held)
+    parts += [edged(edge, where) for edge in scene.constraints.values()]
+    parts += [driven(scene, quantity, law, where) for quantity, law in scene.drives.items()]
     for contact in scene.contacts.values():
         if contact.switches:
             continue  # what it holds, and when, is for its modes to say
         rolls = tangent(contact, where)
-        found += [normal(contact, where), rolls if start is None else _rolling(rolls, start)]
-    return found
+        parts += [normal(contact, where), rolls if start is None else _rolling(rolls, start)]
+    return parts
 
 
 @equation

@@ -26,7 +26,7 @@ Margins = Callable[[Mapping[str, float]], list[float]]
 
 @dataclass(frozen=True)
 class Inmost:
-    """Forces, and the least of what they leave, of their size."""
+    """Forces, and the smallest of their margins, relative to their size."""
 
     forces: dict[str, float]
     least: float
@@ -34,11 +34,11 @@ class Inmost:
 
 @dataclass(frozen=True)
 class Leeway:
-    """left + slope z (m,) ≥ 0, of the forces' size; z (k,)."""
+    """Open forces: margins + slope z (m,) ≥ 0, relative to the forces' size; z (k,)."""
 
-    one: Mapping[str, float]
+    forces: Mapping[str, float]
     ways: Sequence[Mapping[str, float]]
-    left: Array
+    margins: Array
     slope: Array
     size: float
 
@@ -51,12 +51,12 @@ class Leeway:
     def inmost(self) -> Inmost:
         """The forces whose least margin is the largest; of its size at most."""
         if not np.any(self.leans):
-            return Inmost(dict(self.one), 1.0)
-        slope, left = self.slope[self.leans], self.left[self.leans]
+            return Inmost(dict(self.forces), 1.0)
+        slope, margins = self.slope[self.leans], self.margins[self.leans]
         m, k = slope.shape
-        found = _best(np.append(np.zeros(k), -1.0), np.hstack([-slope, np.ones((m, 1))]), left, 1.0)
-        z, least = found[:-1], float(np.min(slope @ found[:-1] + left))
-        return Inmost({name: self._at(name, z) for name in self.one}, least)
+        x = _best(np.append(np.zeros(k), -1.0), np.hstack([-slope, np.ones((m, 1))]), margins, 1.0)
+        z, least = x[:-1], float(np.min(slope @ x[:-1] + margins))
+        return Inmost({name: self._force_at(name, z) for name in self.forces}, least)
 
     @property
     def fits(self) -> bool:
@@ -65,32 +65,32 @@ class Leeway:
 
     def open(self, name: str) -> bool:
         """Whether the equations leave this force open; the laws may hold it all the same."""
-        return any(abs(way[name] - self.one[name]) > LEANS * self.size for way in self.ways)
+        return any(abs(way[name] - self.forces[name]) > LEANS * self.size for way in self.ways)
 
     def span(self, name: str) -> tuple[float, float]:
         """The least and the largest value that the laws allow a force."""
-        return self.spanned(self.one[name], [way[name] for way in self.ways])
+        return self.spanned(self.forces[name], [way[name] for way in self.ways])
 
     def spanned(self, own: float, others: Sequence[float]) -> tuple[float, float]:
         """The least and the largest value that the laws allow anything linear in the forces.
 
-        It is `own` for the forces `one`, and `others` for those of each way.
+        It is `own` for `forces`, and `others` for those of each way.
         """
         along = (np.array(others) - own) / self.size
         if np.max(np.abs(along)) <= LEANS:
             return own, own
-        slope, left = self.slope[self.leans], self.left[self.leans]
-        left = left + max(0.0, -self.inmost.least)
-        low, high = (self._farthest(sense * along, slope, left) for sense in (1.0, -1.0))
+        slope, margins = self.slope[self.leans], self.margins[self.leans]
+        margins = margins + max(0.0, -self.inmost.least)
+        low, high = (self._farthest(sense * along, slope, margins) for sense in (1.0, -1.0))
         return own + self.size * low, own - self.size * high
 
-    def _farthest(self, along: Array, slope: Array, left: Array) -> float:
+    def _farthest(self, along: Array, slope: Array, margins: Array) -> float:
         """The least of along · z."""
-        z = _best(along, -slope, left)
+        z = _best(along, -slope, margins)
         return -math.inf if z is None else float(along @ z)
 
-    def _at(self, name: str, z: Array) -> float:
-        own = self.one[name]
+    def _force_at(self, name: str, z: Array) -> float:
+        own = self.forces[name]
         return own + float(np.array([way[name] - own for way in self.ways]) @ z)
 
 
@@ -100,12 +100,12 @@ def _best(cost: Array, rows: Array, bound: Array, most: float | None = None) -> 
 
     limits = [(None, None)] * (len(cost) - 1) + [(None, most)]
     programme: Any = linprog
-    found = programme(cost, A_ub=rows, b_ub=bound, bounds=limits, options=EXACT)
-    if found.status == UNBOUNDED:
+    result = programme(cost, A_ub=rows, b_ub=bound, bounds=limits, options=EXACT)
+    if result.status == UNBOUNDED:
         return None
-    if found.x is None:
-        raise ArithmeticError(f"a linear programme has no answer: {found.message}")
-    return found.x
+    if result.x is None:
+        raise ArithmeticError(f"a linear programme has no answer: {result.message}")
+    return result.x
 
 
 def sized(ways: Array, size: float) -> Array:
@@ -117,13 +117,13 @@ EXACT = {"primal_feasibility_tolerance": FITS, "dual_feasibility_tolerance": FIT
 
 
 def leeway(
-    told: Callable[[Array], Mapping[str, float]], multipliers: Array, ways: Array, margins: Margins
+    forces_of: Callable[[Array], Mapping[str, float]], lam: Array, ways: Array, margins_of: Margins
 ) -> Leeway:
     """The forces left open by ways (k, r) that move nothing, from those of multipliers (r,)."""
-    one = told(multipliers)
-    size = max(map(abs, one.values()), default=0.0) or 1.0
-    others = [told(multipliers + way) for way in sized(ways, size)]
-    left = np.array(margins(one), dtype=float)
-    slope = np.array([margins(other) for other in others], dtype=float)
-    slope = slope.reshape(len(others), len(left)).T  # a bar between two hinges has no margins
-    return Leeway(one, others, left / size, (slope - left[:, None]) / size, size)
+    forces = forces_of(lam)
+    size = max(map(abs, forces.values()), default=0.0) or 1.0
+    others = [forces_of(lam + way) for way in sized(ways, size)]
+    margins = np.array(margins_of(forces), dtype=float)
+    slope = np.array([margins_of(other) for other in others], dtype=float)
+    slope = slope.reshape(len(others), len(margins)).T  # a bar between two hinges has no margins
+    return Leeway(forces, others, margins / size, (slope - margins[:, None]) / size, size)

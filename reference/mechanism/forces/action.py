@@ -548,13 +548,13 @@ def blurred(scene: Scene, speed: float) -> float:
     """
     m = sum(body.mass for body in scene.bodies.values())
     stops = [f for f in of(Viscous, scene.forces.values()) if f.exponent < 1.0]
-    left = [
+    times = [
         (NOISE * speed) ** (1.0 - f.exponent) * m / (d * (1.0 - f.exponent))
         for f in stops
         for d in (f.coefficient.forward, f.coefficient.backward)
         if d
     ]
-    return max(left, default=0.0)
+    return max(times, default=0.0)
 
 
 @dataclass(frozen=True)

@@ -42,11 +42,11 @@ class Ingredients(Numbered):
 
     def moments(self, t: Any, q: Any, v: Any) -> dict[str, Any]:
         """By quantity the moments about joints on their second parts, in ground axes [N m]."""
-        found: dict[str, Any] = {}
+        moments: dict[str, Any] = {}
         function, names = self._moments
         for name, value in zip(names, function(t, q, v), strict=True):
-            found[name] = found.get(name, 0.0) + value
-        return found
+            moments[name] = moments.get(name, 0.0) + value
+        return moments
 
     def lengths(self, t: Any, q: Any) -> list[tuple[str, float]]:
         """λ [m] of those that have no direction where their ends meet, by name."""
@@ -72,12 +72,12 @@ class Ingredients(Numbered):
     @cached_property
     def _Q4(self) -> Compiled:
         k = Kinematics(self._where)
-        found: list[Any] = [0.0] * len(self._where.masses)
+        forces: list[Any] = [0.0] * len(self._where.masses)
         for action in self._actions:
             for part, F, M in action.Q4(k):
                 for column, x in part.columns(F, M):
-                    found[column] = found[column] + x
-        return k.tape.compiled(found)
+                    forces[column] = forces[column] + x
+        return k.tape.compiled(forces)
 
     @cached_property
     def _rate(self) -> Compiled:

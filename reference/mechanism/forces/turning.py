@@ -124,9 +124,9 @@ class SpatialTurn(Between):
         """n₂ × (n₁ × n₂)/|n₁ × n₂|²; of one turn n₂."""
         if self.alone:
             return self.last.u
-        one, two = (self.first.u, self.last.u)[:: 1 if self.way > 0 else -1]
-        normal = k.frame.cross(one, two)
-        return k.frame.cross(two, normal) / (normal @ normal)
+        first, second = (self.first.u, self.last.u)[:: 1 if self.way > 0 else -1]
+        normal = k.frame.cross(first, second)
+        return k.frame.cross(second, normal) / (normal @ normal)
 
 
 def pointed(s: Any, c: Any, near: Any) -> Any:

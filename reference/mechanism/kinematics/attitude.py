@@ -47,8 +47,8 @@ LEVI_CIVITA, QUADRATIC, HALVED = _levi_civita(), _quadratic(), _halved()
 
 def matrices(q: Any) -> Any:
     """(K, 3, 3): R = Eᵀ of (2.1), whose columns are the body axes in ground axes; q (K, 4)."""
-    found = _products(q, q) @ QUADRATIC
-    return (found[:, :9] / found[:, 9:]).reshape(-1, 3, 3)
+    entries = _products(q, q) @ QUADRATIC
+    return (entries[:, :9] / entries[:, 9:]).reshape(-1, 3, 3)
 
 
 def rates(q: Any, omega: Any) -> Any:
@@ -75,8 +75,8 @@ def skew(x: Any) -> Any:
 
 def _products(a: Any, b: Any) -> Any:
     """(…, n m): all products a_i b_j of a (…, n) and b (…, m), in the order of i, then j."""
-    found = a[..., :, None] * b[..., None, :]
-    return found.reshape(*found.shape[:-2], -1)
+    products = a[..., :, None] * b[..., None, :]
+    return products.reshape(*products.shape[:-2], -1)
 
 
 SKEW = -LEVI_CIVITA.reshape(3, 9)  # makes [x]×, row by row, of x

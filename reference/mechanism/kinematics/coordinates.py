@@ -114,7 +114,7 @@ class Coordinates(Layout):
 
     def velocities(self, poses: Mapping[str, Pose]) -> Any:
         """v (n,) of given poses, real or complex."""
-        found: list[Any] = []
+        rates: list[Any] = []
         for name, (_, phi) in self.columns.items():
-            found += poses[name][3 : 5 if phi is None else 6]
-        return np.array(found)
+            rates += poses[name][3 : 5 if phi is None else 6]
+        return np.array(rates)

@@ -34,10 +34,10 @@ class Vec(tuple[Any, ...]):
 
     def __matmul__(self, other: Sequence[Any]) -> Any:
         """The scalar product."""
-        found: Any = 0.0
+        total: Any = 0.0
         for a, b in zip(self, other, strict=True):
-            found = found + a * b
-        return found
+            total = total + a * b
+        return total
 
 
 Columns = tuple[Vec, ...]

@@ -66,13 +66,13 @@ class Part:
 
         The ground has none, and what has no ω takes no moment.
         """
-        found: list[tuple[int, Any]] = []
+        entries: list[tuple[int, Any]] = []
         if self.slots is not None:
             if F is not None:
-                found += [(self.slots.r_dot + i, x) for i, x in enumerate(F)]
+                entries += [(self.slots.r_dot + i, x) for i, x in enumerate(F)]
             if M is not None and self.slots.omega is not None:
-                found += [(self.slots.omega + i, x) for i, x in enumerate(M)]
-        return found
+                entries += [(self.slots.omega + i, x) for i, x in enumerate(M)]
+        return entries
 
 
 @dataclass(frozen=True)
@@ -230,12 +230,12 @@ class Kinematics(Numbered):
 
         The derivative of the latter has u̇·Δ̇ once more, and ω × (ω × u) at Δ.
         """
-        found = self.along(b, c) - self.along(a, c)
+        row = self.along(b, c) - self.along(a, c)
         if c.part is None:
-            return found
+            return row
         gap, gap_dot = b.r - a.r, b.r_dot - a.r_dot
         swept = self.frame.wedge(c.own, back(c.part.R, gap))
-        return found + Row([(c.part, None, swept)], 0.0, -(c.u_dot @ gap_dot) - c.beside @ gap)
+        return row + Row([(c.part, None, swept)], 0.0, -(c.u_dot @ gap_dot) - c.beside @ gap)
 
     def turn(self, a: Part, b: Part, m: Vec, m_dot: Vec) -> Row:
         """m·(ω_b − ω_a), m (s,) and its rate in ground axes; γ = −ṁ·(ω_b − ω_a)."""

@@ -192,20 +192,20 @@ class Tape:
             operation, of = self._nodes[at]
             depths[at] = 1 + max((depths[x[0]] for x in of if isinstance(x, tuple)), default=0)
             if operation in ("+", "*", "/", "**"):
-                one, two = map(text, of)
-                if operation == "**" and one.startswith("-"):
-                    one = f"({one})"
-                if operation == "+" and two.startswith("-"):
-                    found = f"({one} - {two[1:]})"
+                first, second = map(text, of)
+                if operation == "**" and first.startswith("-"):
+                    first = f"({first})"
+                if operation == "+" and second.startswith("-"):
+                    code = f"({first} - {second[1:]})"
                 else:
-                    found = f"({one} {operation} {two})"
+                    code = f"({first} {operation} {second})"
             else:
-                found = f"{operation}({', '.join(map(text, of))})" if of else operation
+                code = f"{operation}({', '.join(map(text, of))})" if of else operation
             if uses[at] > 1 or depths[at] > DEEP:
                 name = f"x{at}"
-                lines.append(f"{name} = {found}")
-                found, depths[at] = name, 0
-            texts[at] = found
+                lines.append(f"{name} = {code}")
+                code, depths[at] = name, 0
+            texts[at] = code
         return lines, [
             text((x.at, x.sign)) if isinstance(x, Scalar) else repr(float(x)) for x in results
         ]
@@ -213,12 +213,12 @@ class Tape:
     def _uses(self, wanted: list[int]) -> dict[int, int]:
         """How often each number is used that the wanted ones need."""
         uses: dict[int, int] = {}
-        left = list(wanted)
-        while left:
-            at = left.pop()
+        stack = list(wanted)
+        while stack:
+            at = stack.pop()
             uses[at] = uses.get(at, 0) + 1
             if uses[at] == 1:
-                left += [x[0] for x in self._nodes[at][1] if isinstance(x, tuple)]
+                stack += [x[0] for x in self._nodes[at][1] if isinstance(x, tuple)]
         return uses
 
     def _input(self, text: str) -> Scalar:

@@ -83,7 +83,7 @@ def blow(
     if not len(rows.f):
         after, impulse, ways = v, np.zeros(0), np.zeros((0, 0))
     else:
-        after, impulse, ways = _solved(M, rows, v)
+        after, impulse, ways = _solve(M, rows, v)
     fast = float(np.max(np.abs(v)))
     if np.max(np.abs(rows.f @ after - rows.after), initial=0.0) > APART * _fast(rows, v):
         return None
@@ -124,7 +124,7 @@ def _rows(
     return _Rows(f, exerts, np.array(after), normals, stuck)
 
 
-def _solved(M: Array, rows: _Rows, v: Array) -> tuple[Array, Array, Array]:
+def _solve(M: Array, rows: _Rows, v: Array) -> tuple[Array, Array, Array]:
     """q̇⁺ (n,), the least impulses (r,) that give it, and those (k, r) that change no row's rate."""
     root = np.sqrt(M)
     f, sizes = unit(rows.f / root)
@@ -133,11 +133,11 @@ def _solved(M: Array, rows: _Rows, v: Array) -> tuple[Array, Array, Array]:
     k = min(rank(f), int(np.sum(s > NONE * s[0])))
     v_after, impulse = v, np.zeros(len(f))
     for _ in range(1 + TURNS):
-        left = (rows.after - rows.f @ v_after) / sizes
+        residual = (rows.after - rows.f @ v_after) / sizes
         if k == len(f):
-            more = np.linalg.solve(f @ columns.T, left)
+            more = np.linalg.solve(f @ columns.T, residual)
         else:
-            more = along[:k].T @ ((across.T @ left)[:k] / s[:k])
+            more = along[:k].T @ ((across.T @ residual)[:k] / s[:k])
         v_after, impulse = v_after + more @ columns / root, impulse + more / sizes
     return v_after, impulse, along[k:] / sizes
 
@@ -147,31 +147,31 @@ def _allowed(
     rows: _Rows,
     meetings: Sequence[Meeting],
     states: Sequence[State],
-    found: tuple[Array, Array, Array],
+    solution: tuple[Array, Array, Array],
     ways: Array,
     fast: float,
 ) -> Blow | None:
-    """The velocities after the blow, if impulses one + z₁ way₁ + … can keep the laws; else None."""
-    v, v_after, impulse = found
+    """The velocities after the blow, if impulses + z₁ way₁ + … can keep the laws; else None."""
+    v, v_after, impulse = solution
     size = float(np.max(np.abs(impulse), initial=0.0)) or 1.0
 
-    def left(v_after: Array, impulse: Array) -> Array:
+    def margins(v_after: Array, impulse: Array) -> Array:
         pushes = [margin / size for margin in _pushes(rows, meetings, impulse)]
         speeds = [rate / fast for rate in _speeds(meetings, states, v_after)] if fast else []
         return np.array([*pushes, *speeds])
 
-    one = left(v_after, impulse)
+    own_margins = margins(v_after, impulse)
     if not len(ways):
-        fits = bool(np.all(one >= -ROUNDING))
+        fits = bool(np.all(own_margins >= -ROUNDING))
         return Blow(v_after, grip=_grip(rows, meetings, impulse)) if fits else None
     others = [(v_after + way @ rows.columns / M, impulse + way) for way in sized(ways, size)]
-    slope = np.array([left(*other) - one for other in others]).T
+    slope = np.array([margins(*other) - own_margins for other in others]).T
     places = [str(i) for i in range(len(v))]
-    own, *told = (
+    own, *alternatives = (
         dict(zip(places, each.tolist(), strict=True)) for each in (v_after, *(x for x, _ in others))
     )
-    leeway = Leeway(own, told, one, slope, fast or 1.0)
-    if np.any(one[~leeway.leans] < -FITS) or not leeway.fits:
+    leeway = Leeway(own, alternatives, own_margins, slope, fast or 1.0)
+    if np.any(own_margins[~leeway.leans] < -FITS) or not leeway.fits:
         return None
     moved = [place for place in places if leeway.open(place)]
     if not moved:

@@ -28,7 +28,7 @@ class NoImpact(ArithmeticError):
 
 
 class Several(NoImpact):
-    """Where they have several."""
+    """Where Coulomb's law and the restitution have several answers."""
 
 
 def impact(
@@ -40,7 +40,7 @@ def impact(
     """
     elements, choices = [meeting.element for meeting in meetings], _choices(meetings)
     driven, small = _driven(joints, meetings), SAME * float(np.max(np.abs(v)))
-    found: list[tuple[Blow, tuple[State, ...]]] = []
+    blows: list[tuple[Blow, tuple[State, ...]]] = []
     gains = False
     for states in tries(ways(elements, choices), undecided(elements, choices)):
         way = blow(M, joints, meetings, v, states)
@@ -52,18 +52,18 @@ def impact(
         # Of the ways to one velocity the first holds the most: what takes no part may also be open.
         same = [
             k
-            for k, (known, _) in enumerate(found)
+            for k, (known, _) in enumerate(blows)
             if not (way.loose or known.loose) and np.max(np.abs(known.v - way.v)) <= small
         ]
         if not same:
-            found.append((way, states))
-        elif found[same[0]][0].shared and _lets_go(found[same[0]][1], states):
-            found[same[0]] = way, states
-    if not found:
+            blows.append((way, states))
+        elif blows[same[0]][0].shared and _lets_go(blows[same[0]][1], states):
+            blows[same[0]] = way, states
+    if not blows:
         raise NoImpact("the impact would create energy" if gains else _impossible(joints, meetings))
-    (first, states), *others = found
+    (first, states), *others = blows
     if others or first.loose:
-        raise Several(_ambiguous(meetings, [states for _, states in found]))
+        raise Several(_ambiguous(meetings, [states for _, states in blows]))
     return first, states
 
 
@@ -102,14 +102,14 @@ def _lets_go(known: Sequence[State], states: Sequence[State]) -> bool:
     return all(pair == ("acts", "open") for pair in pairs)
 
 
-def _ambiguous(meetings: Sequence[Meeting], found: Sequence[Sequence[State]]) -> str:
+def _ambiguous(meetings: Sequence[Meeting], alternatives: Sequence[Sequence[State]]) -> str:
     """`…: left sticks, right sticks as well as left sticks, right open`."""
     names = [m.element.name for m in meetings]
     each = (
         ", ".join(f"{name} {state}" for name, state in zip(names, states, strict=True))
-        for states in found[:2]
+        for states in alternatives[:2]
     )
-    many = ", with any of many velocities" if len(found) == 1 else ""
+    many = ", with any of many velocities" if len(alternatives) == 1 else ""
     return (
         "rigid bodies do not say what the blow does, the law of friction is kept by "
         f"{' as well as '.join(each)}{many}"

@@ -46,23 +46,23 @@ def landed(
     touching, met = _meetings(modes, mode, i, t, q, v, rests=rests, size=size)
     still = modes.still(t, q, v, part=STILL)
     if strikes := any(m.strikes and m.normal.rate(v) < -still for m in met):
-        v, states = _struck(modes, mode, i, touching, met, t, q, v, size, rests=rests)
+        v, states = _after_blow(modes, mode, i, touching, met, t, q, v, size, rests=rests)
         flies = math.inf if rests else still  # what the last blow throws up, falls back at once
-        found = [_after(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
+        options = [_next(m, state, v, still, flies) for m, state in zip(met, states, strict=True)]
     else:  # nothing approaches: it rests but for rounding, or rises from a gap that rounding made
-        found = [closed(m.element, _clear(m.tangent.rate(v), still)) for m in met]
+        options = [closed(m.element, _snap(m.tangent.rate(v), still)) for m in met]
     choices: list[Options] = [
-        closed(e, _clear(rate(e.slip, t, q, v), still)) if e.slip is not None else (state,)
+        closed(e, _snap(rate(e.slip, t, q, v), still)) if e.slip is not None else (state,)
         for e, state in zip(modes.elements, modes.states[mode], strict=True)
     ]
     for k, e in enumerate(modes.elements):
         if e.normal is not None:
-            choices[k] = found[touching.index(k)] if k in touching else ("open",)
+            choices[k] = options[touching.index(k)] if k in touching else ("open",)
     after = settled(modes, choices, t, q, v)
     return (mode, q, v) if after[0] == mode and not strikes else after  # no blow: q, v as given
 
 
-def _struck(
+def _after_blow(
     modes: Modes,
     mode: str,
     i: int,
@@ -93,7 +93,7 @@ def _struck(
     except Several as error:
         raise Undetermined(modes.elements[i].name, f"at t = {t:.4g} s {error}", t) from error
     except NoImpact as error:
-        what = _needed(modes, held, met, v, t) or f"at t = {t:.4g} s {error}"
+        what = _friction_advice(modes, held, met, v, t) or f"at t = {t:.4g} s {error}"
         raise Undetermined(modes.elements[i].name, what, t) from error
     return taken.v, states
 
@@ -107,7 +107,7 @@ def _at_rest(modes: Modes, mode: str, i: int, t: float, q: Array, v: Array) -> A
     return settled(modes, choices, t, q, v)
 
 
-def _needed(
+def _friction_advice(
     modes: Modes, held: list[Condition], met: list[Meeting], v: Array, t: float
 ) -> str | None:
     """Says with what friction a pivot would not slip in the impact; None if more is missing."""
@@ -124,7 +124,7 @@ def _needed(
     return f"the impact at t = {t:.4g} s would slip: {needs}"
 
 
-def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Options:
+def _next(m: Meeting, state: State, v: Array, still: float, flies: float) -> Options:
     """Returns the states a contact may take after the one it had in the blow.
 
     still [m/s]: slip that is zero but for rounding. flies [m/s]: what rises no faster may stay.
@@ -133,7 +133,7 @@ def _after(m: Meeting, state: State, v: Array, still: float, flies: float) -> Op
     if m.after > m.normal.g or (state == "open" and m.normal.rate(v) > flies):
         return ("open",)
     if state == "open":  # it bore no impulse: that it bears no force either is tried first
-        stays = closed(m.element, _clear(m.tangent.rate(v), still))
+        stays = closed(m.element, _snap(m.tangent.rate(v), still))
         return ("open", *(state for state in stays if state != "open"))
     if m.element.frictionless or state == "sticks":
         return closed(m.element, 0.0)
@@ -173,7 +173,7 @@ def _condition(part: Constraint | None, t: float, q: Array, v: Array) -> Conditi
     return Condition(np.zeros(len(v)), 0.0) if part is None else Condition(*row(part, t, q, v)[:2])
 
 
-def _clear(slip: float, still: float) -> float:
+def _snap(slip: float, still: float) -> float:
     """Returns the slip [m/s], exactly zero where it is no more than rounding."""
     return slip if abs(slip) > still else 0.0
 

@@ -147,8 +147,8 @@ class PlanarMechanism(Mechanism):
     def guards(self, mode: str) -> Sequence[Guard]:
         """Opening, landing, stopping, slipping, and what springs do, in this order."""
         states = self.built.states[mode]
-        found = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
-        found += halting(self.built, mode, self.size)
+        guards = [g for i, s in enumerate(states) for g in self._guards(mode, i, s)]
+        guards += halting(self.built, mode, self.size)
         order = {
             "opens": 0,
             "lands": 1,
@@ -159,7 +159,7 @@ class PlanarMechanism(Mechanism):
             "None": 5,
         }
         order |= {"leaves": 0, "strikes": 1}
-        return sorted(found, key=lambda guard: order[str(guard.event).split()[-1]])
+        return sorted(guards, key=lambda guard: order[str(guard.event).split()[-1]])
 
     def _guards(self, mode: str, i: int, state: State) -> Iterator[Guard]:
         e = self.elements[i]
@@ -167,12 +167,12 @@ class PlanarMechanism(Mechanism):
             return
         if isinstance(e, OneSided):
             ends = lambda t, q, v: e.ends(state, t, q)  # noqa: E731
-            then, name = self._to(mode, i, (OTHER[state],)), f"{e.name} {HAPPENS[state]}"
+            then, name = self._next(mode, i, (OTHER[state],)), f"{e.name} {HAPPENS[state]}"
             yield Guard(name, ends, then, rounds=self._rounds)  # a rope may hold its length
             return
         if (normal := e.normal) is not None:
             if state == "open":
-                gap = self._clear(e, normal)
+                gap = self._clearance(e, normal)
                 rest = self._comes_to_rest(mode, i)
                 lands, name = self._lands(mode, i), f"{e.name} {e.endings[1]}"
                 yield Guard(name, gap, lands, rest, vain=True, jumps=True, rounds=self._rounds)
@@ -183,13 +183,13 @@ class PlanarMechanism(Mechanism):
             return
         if s := sign(state):
             slip = lambda t, q, v: e.slowing(s * rate(e.tangent, t, q, v))  # noqa: E731
-            yield Guard(f"{e.name} stops", slip, self._to(mode, i, REST), jumps=e.yields)
+            yield Guard(f"{e.name} stops", slip, self._next(mode, i, REST), jumps=e.yields)
             return
         for k, way in enumerate(("slides +", "slides -")):
-            margin, slides = self._margin(mode, e, k), self._to(mode, i, (way,))
+            margin, slides = self._margin(mode, e, k), self._next(mode, i, (way,))
             yield Guard(f"{e.name} slips", margin, slides, jumps=e.yields)
 
-    def _clear(self, e: Element, normal: Constraint) -> Callable[[float, Array, Array], float]:
+    def _clearance(self, e: Element, normal: Constraint) -> Callable[[float, Array, Array], float]:
         """Its height; more, where it passes through the floor, which is never steeper than 2."""
 
         def clear(t: float, q: Array, v: Array) -> float:
@@ -205,7 +205,7 @@ class PlanarMechanism(Mechanism):
     def _margin(self, mode: str, e: Element, k: int) -> Callable[[float, Array, Array], float]:
         return lambda t, q, v: e.margins(self.built.forces(mode, t, q, v))[k]
 
-    def _to(self, mode: str, i: int, choice: Options) -> Callable[[float, Array, Array], After]:
+    def _next(self, mode: str, i: int, choice: Options) -> Callable[[float, Array, Array], After]:
         """The next mode if element i has this choice; at rest it first comes to rest exactly."""
 
         def then(t: float, q: Array, v: Array) -> After:
@@ -260,7 +260,7 @@ class PlanarMechanism(Mechanism):
         return lambda t, q, v: landed(self.built, mode, i, t, q, v, size=self.size)
 
     def _comes_to_rest(self, mode: str, i: int) -> Callable[[float, Array, Array], After | None]:
-        """The same without a rebound; None where no motion keeps the laws then."""
+        """The impact law without a rebound; None where no motion keeps the laws then."""
 
         def then(t: float, q: Array, v: Array) -> After | None:
             try:
@@ -313,7 +313,7 @@ def halting(modes: Modes, mode: str, size: float) -> Iterator[Guard]:
         if force.exponent < 1.0 and force.coefficient:
             slow, point = SLOW * _speed(modes, size), tracked(force.at, modes.base.where)
             yield Guard(
-                None, _over(point, slow), _stops(modes, mode, force, point, slow), vain=True
+                None, _excess_speed(point, slow), _stops(modes, mode, force, point, slow), vain=True
             )
 
 
@@ -323,8 +323,8 @@ def _speed(modes: Modes, size: float) -> float:
     return fastest or float(np.sqrt(size * modes.base.terms(0.0, q, v)[0])) or 1.0
 
 
-def _over(point: Constraint, slow: float) -> Callable[[float, Array, Array], float]:
-    """How much faster than that the point is [m/s]."""
+def _excess_speed(point: Constraint, slow: float) -> Callable[[float, Array, Array], float]:
+    """A guard: how much faster the point is than `slow` [m/s]."""
 
     def faster(t: float, q: Array, v: Array) -> float:
         f, g, _ = point.alone.rows(t, q, v)

@@ -108,7 +108,7 @@ class Multibody(Mode):
         self._at_work = span(np.array(list(self._forces.values()), np.intp))
 
     def _prepare(self) -> None:
-        """Makes ready what solves its equations."""
+        """Prepares the solver of its equations."""
         masses = [mass.m for mass in self.masses.values()]
         self._turns = TURNS if max(masses) > UNEVEN * min(masses) else min(TURNS, 1)
         self.holding = Holding(self._rows, self._M, self._coulomb)
@@ -140,22 +140,22 @@ class Multibody(Mode):
     ) -> dict[str, float]:
         """(2.60) R_a = λ_b f_aᵇ of given multipliers (r,), by quantity."""
         numbers, of_floor = q.tolist(), ("normal", "tangent")
-        found = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}
-        _add(found, self._exerted(t, numbers, multipliers))
+        forces = {f"{name}.{way}": 0.0 for name in self.scene.pressed for way in of_floor}
+        _add(forces, self._exerted(t, numbers, multipliers))
         for brake in self._braking:
-            _add(found, brake.along.reactions(t, numbers, [brake.force(t, q, v)]))
+            _add(forces, brake.along.reactions(t, numbers, [brake.force(t, q, v)]))
         for at, law in self._coulomb:
-            _add(found, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
+            _add(forces, law.tangent.reactions(t, numbers, [law.factor * multipliers[at]]))
         idle = [f"{joint.name}.torque" for joint in self.scene.joints.values() if not joint.turns]
         idle += [force for limit in self.scene.limits() for force in limit.reactions()]
-        found = dict.fromkeys(idle, 0.0) | found  # a particle takes no moment, a rope may be slack
+        forces = dict.fromkeys(idle, 0.0) | forces  # particles take no moment, ropes may be slack
         for shared in self._shared:
-            found |= shared.divided(found)
+            forces |= shared.divided(forces)
         for contact in self.scene.contacts.values():
             for way in of_floor if contact.tips else ():
-                each = (found[f"{point.name}.{way}"] for point in contact.each())
-                found[f"{contact.name}.{way}"] = sum(each)
-        return found
+                each = (forces[f"{point.name}.{way}"] for point in contact.each())
+                forces[f"{contact.name}.{way}"] = sum(each)
+        return forces
 
     def _exerted(self, t: float, q: Sequence[float], multipliers: Any) -> dict[str, float]:
         """(2.60) λ_b f_aᵇ of its own rows."""
@@ -303,10 +303,10 @@ class Multibody(Mode):
         return np.zeros(len(self._M), q.dtype)
 
 
-def _add(found: dict[str, float], more: Mapping[str, float]) -> None:
+def _add(total: dict[str, float], more: Mapping[str, float]) -> None:
     """A slide's force across it and its friction along it make one force."""
     for name, value in more.items():
-        found[name] = found.get(name, 0.0) + value
+        total[name] = total.get(name, 0.0) + value
 
 
 def _at_rest(held: Held, a: Array, free: Array, multipliers: Array) -> Array:

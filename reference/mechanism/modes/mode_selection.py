@@ -29,7 +29,7 @@ class Undetermined(Exception):
 
 
 def painleve(elements: Sequence[Element], part: str, which: str, t: float) -> Undetermined:
-    """No motion satisfies the law, or two do."""
+    """The error where no motion satisfies the law, or two do."""
     what = (
         f"with this friction the motion is not determined: at t = {t:.4g} s {which} "
         "satisfies the law (Painlevé's paradox)"
@@ -55,12 +55,12 @@ def opening(element: Element) -> Options:
 
 def staying(modes: Modes, mode: str) -> list[Options]:
     """For each element without an event: the states it may take next."""
-    found: list[Options] = []
+    options: list[Options] = []
     for e, state in zip(modes.elements, modes.states[mode], strict=True):
         opens = opening(e) if state != "open" else ()
         rests = state == "sticks" and not e.only
-        found.append((*(e.rest if rests else (state,)), *opens))
-    return found
+        options.append((*(e.rest if rests else (state,)), *opens))
+    return options
 
 
 def yielding(
@@ -70,14 +70,14 @@ def yielding(
 
     Of forces that are not determined those that hold are at several bounds at once.
     """
-    forces, found = modes.forces(mode, t, q, v), list(choices)
+    forces, options = modes.forces(mode, t, q, v), list(choices)
     size = YIELDS * max(map(abs, forces.values()), default=0.0)
     for i, (e, state) in enumerate(zip(modes.elements, modes.states[mode], strict=True)):
-        if state == "sticks" and e.slips and len(found[i]) > 1:
+        if state == "sticks" and e.slips and len(options[i]) > 1:
             forward, backward = e.margins(forces)
             if min(forward, backward) <= size:
-                found[i] = (sliding(backward - forward), *opening(e))
-    return found
+                options[i] = (sliding(backward - forward), *opening(e))
+    return options
 
 
 def settled(
@@ -94,31 +94,31 @@ def settled(
     """
     likeliest = _projected(modes, tuple(choice[0] for choice in choices), t, q, v)
     rests = _rests(modes, choices, t, *likeliest)
-    found: list[After] = [likeliest] if rests else []
+    candidates: list[After] = [likeliest] if rests else []
     singular: SingularPose | None = None
     for states in possible_ways(modes, likeliest, choices, t, rests=rests):
         after = _projected(modes, states, t, q, v)
         try:
-            if found and modes.loose(found[0][0]) and modes.loose(after[0]):
+            if candidates and modes.loose(candidates[0][0]) and modes.loose(after[0]):
                 continue
             if _agrees(modes, choices, t, *after):
-                found.append(after)
+                candidates.append(after)
         except SingularPose as error:
             singular = singular or error  # one that agrees needs nothing of it
-    if not found and singular:
-        raise Undetermined(_blamed(modes, choices), str(singular), t) from singular
-    if not found:
-        raise painleve(modes.elements, _blamed(modes, choices), "no motion", t)
-    first, *others = found
+    if not candidates and singular:
+        raise Undetermined(_culprit(modes, choices), str(singular), t) from singular
+    if not candidates:
+        raise painleve(modes.elements, _culprit(modes, choices), "no motion", t)
+    first, *others = candidates
     for other in others:
         pairs = (modes.states[mode] for mode, _, _ in (first, other))
-        for e, one, two in zip(modes.elements, *pairs, strict=True):
-            if (one == "open") != (two == "open") and not _alike(modes, first, other, t):
+        for e, a, b in zip(modes.elements, *pairs, strict=True):
+            if (a == "open") != (b == "open") and not _alike(modes, first, other, t):
                 raise painleve(
                     modes.elements, e.name, f"both staying on and leaving the {e.plane}", t
                 )
             # At rest, held by the others whichever way it rubs; where nothing presses, it does not.
-            if sign(one) * sign(two) < 0 and not _exert_alike(modes, first, other, t):
+            if sign(a) * sign(b) < 0 and not _exert_alike(modes, first, other, t):
                 raise Undetermined(e.name, str(SingularPose(e.name)), t)
     return first
 
@@ -149,7 +149,7 @@ def _agrees(
     if modes.contradicts(mode, t, q, v):
         return False
     forces = modes.forces(mode, t, q, v)
-    left = FITS * max(map(abs, forces.values()), default=0.0) if loose else 0.0
+    tolerance = FITS * max(map(abs, forces.values()), default=0.0) if loose else 0.0
     for e, state, choice in zip(modes.elements, modes.states[mode], choices, strict=True):
         if e.normal is not None:
             if state == "open":
@@ -158,7 +158,7 @@ def _agrees(
                 continue
             if forces[e.push] < -small * float(np.max(modes.M)):
                 return False
-        if state == "sticks" and e.slips and min(e.margins(forces)) < -left:
+        if state == "sticks" and e.slips and min(e.margins(forces)) < -tolerance:
             return False
         s = sign(state) if "sticks" in choice else 0
         if s and s * modes.change(e.tangent, mode, t, q, v) < -small:
@@ -166,17 +166,17 @@ def _agrees(
     return True
 
 
-def _exert_alike(modes: Modes, one: After, other: After, t: float) -> bool:
+def _exert_alike(modes: Modes, first: After, second: After, t: float) -> bool:
     """Whether both answers are the same motion, by the same forces."""
-    a, b = (modes.forces(mode, t, q, v) for mode, q, v in (one, other))
-    room = modes.small(t, *one[1:]) * float(np.max(modes.M))
-    return _alike(modes, one, other, t) and all(abs(a[name] - b[name]) <= room for name in a)
+    a, b = (modes.forces(mode, t, q, v) for mode, q, v in (first, second))
+    room = modes.small(t, *first[1:]) * float(np.max(modes.M))
+    return _alike(modes, first, second, t) and all(abs(a[name] - b[name]) <= room for name in a)
 
 
-def _alike(modes: Modes, one: After, other: After, t: float) -> bool:
+def _alike(modes: Modes, first: After, second: After, t: float) -> bool:
     """Whether both answers are the same motion: the floor neither pushes nor is left."""
-    a, b = (modes[mode].accelerations(t, q, v) for mode, q, v in (one, other))
-    return bool(np.max(np.abs(a - b)) <= modes.small(t, *one[1:]))
+    a, b = (modes[mode].accelerations(t, q, v) for mode, q, v in (first, second))
+    return bool(np.max(np.abs(a - b)) <= modes.small(t, *first[1:]))
 
 
 def _projected(modes: Modes, states: tuple[State, ...], t: float, q: Array, v: Array) -> After:
@@ -212,7 +212,7 @@ def _nearest(M: Array, f: Array, residual: Array) -> Array:
     return by_mass.T @ np.linalg.lstsq(f @ by_mass.T, residual, rcond=None)[0]
 
 
-def _blamed(modes: Modes, choices: Sequence[Options]) -> str:
+def _culprit(modes: Modes, choices: Sequence[Options]) -> str:
     """The element to blame: the first that is not simply open."""
     pairs = zip(modes.elements, choices, strict=True)
     return next((e.name for e, c in pairs if c != ("open",)), modes.elements[0].name)

@@ -65,7 +65,7 @@ class Modes(Numbered, Mapping[str, Multibody]):
         return self.name(states, self._unshared(states, t, q, v)[1] if loose else None)
 
     def loose(self, mode: str) -> bool:
-        """Whether its rows hold more than there is to hold."""
+        """Whether the rows of a mode depend on each other."""
         return mode in self._ranks
 
     def contradicts(self, name: str, t: float, q: Array, v: Array) -> bool:
@@ -104,13 +104,13 @@ class Modes(Numbered, Mapping[str, Multibody]):
 
     def margins(self, states: tuple[State, ...], forces: Mapping[str, float]) -> list[float]:
         """(2.87), (2.89) What forces leave [N, N m] until a contact opens or what sticks slips."""
-        found: list[float] = []
+        margins: list[float] = []
         for e, state in self._pairs(states):
             if e.normal is not None and state != "open":
-                found.append(forces[e.push])
+                margins.append(forces[e.push])
             if state == "sticks":
-                found += [margin for margin in e.margins(forces) if math.isfinite(margin)]
-        return found
+                margins += [margin for margin in e.margins(forces) if math.isfinite(margin)]
+        return margins
 
     def _build(self, states: tuple[State, ...], rank: int | None) -> Multibody:
         pairs = self._pairs(states)

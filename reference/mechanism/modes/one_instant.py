@@ -36,11 +36,11 @@ def undivided(
     problem = _Problem(M, joints, meetings, plastic)
     groups = problem.groups(struck, v)
     try:
-        found = [problem.struck(struck, v)]
-        found += [problem.in_turn(order, v) for order in permutations(groups)]
+        velocities = [problem.struck(struck, v)]
+        velocities += [problem.in_turn(order, v) for order in permutations(groups)]
     except NoImpact:
         return None
-    first, *others = found
+    first, *others = velocities
     small = SAME * float(np.max(np.abs(v)))
     alike = all(np.max(np.abs(first - other)) <= small for other in others)
     return first if alike and (len(groups) == len(struck) or problem.stays(first, small)) else None
@@ -115,8 +115,8 @@ class _Problem:
             for signs in product((1.0, -1.0), repeat=n):
                 turned = np.array([*np.ones(n), *signs])
                 there = moves[np.ix_(places, places)] * np.outer(turned, turned)
-                left = np.max(np.abs(rates[places] * turned - rates), initial=0.0)
-                if np.all(np.abs(there - moves) <= ALIKE * size) and left <= ALIKE * fast:
+                error = np.max(np.abs(rates[places] * turned - rates), initial=0.0)
+                if np.all(np.abs(there - moves) <= ALIKE * size) and error <= ALIKE * fast:
                     yield tuple(struck[k] for k in order)
                     break
 

@@ -44,18 +44,18 @@ def ways(
     What a body has closed on a plane does alike; without friction there is no choice.
     """
     states: list[State] = []
-    left = [iter(choices[0])] if choices else []
+    iterators = [iter(choices[0])] if choices else []
     if not choices:
         yield ()
-    while left:
-        state = next(left[-1], None)
+    while iterators:
+        state = next(iterators[-1], None)
         if state is None:
-            left.pop()
+            iterators.pop()
             del states[-1:]
         elif _alike(elements, states, state):
-            if len(left) < len(choices):
+            if len(iterators) < len(choices):
                 states.append(state)
-                left.append(iter(choices[len(states)]))
+                iterators.append(iter(choices[len(states)]))
             else:
                 yield (*states, state)
 
@@ -94,6 +94,6 @@ def _rubs(e: Element, state: State) -> bool:
 
 
 def undecided(elements: Sequence[Element], choices: Sequence[Sequence[State]]) -> list[str]:
-    """The elements that may do one thing or another."""
+    """Names of the elements with more than one choice."""
     both = zip(elements, choices, strict=True)
     return [element.name for element, choice in both if len(choice) > 1]

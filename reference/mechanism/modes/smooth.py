@@ -55,12 +55,12 @@ class SmoothMultibody(Multibody):
     def solve(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """(2.60) at rest along the slides, and with F_a + F_fr along them: q̈ and λ are sums."""
         a, multipliers = self._resting.solve(t, q, v)
-        a = self._still(t, q, v, a)
+        a = self._without_rounding(t, q, v, a)
         along = np.zeros(len(q))
         for k, part in enumerate(self._rests):
             f, g, _ = row(part, t, q, v)
             F_a = -float(multipliers[self._r + k])
-            along += _left(*self._laws[k], float(f @ v) - g, F_a) * f
+            along += _remaining_force(*self._laws[k], float(f @ v) - g, F_a) * f
         free = along / self._M
         if not self._r:
             return a + free, multipliers[:0]
@@ -68,7 +68,7 @@ class SmoothMultibody(Multibody):
         more = held.solve(-held.along(free))
         return a + free + held.pulled(more), multipliers[: self._r] + more
 
-    def _still(self, t: float, q: Array, v: Array, a: Array) -> Array:
+    def _without_rounding(self, t: float, q: Array, v: Array, a: Array) -> Array:
         """f_a q̈ᵃ = γ without the rounding of forces that cancel: a block held at rest has q̈ = 0."""
         rows, _, gamma = self._resting.rows(t, q, v)
         by_rows, beside = self._parts or _split(rows, self._M)
@@ -105,7 +105,7 @@ def _split(rows: Array, M: Array) -> tuple[Array, Array]:
 
 
 @equation
-def _left(F: Dry, law: Smooth, v: float, F_a: float) -> float:
+def _remaining_force(F: Dry, law: Smooth, v: float, F_a: float) -> float:
     """(2.95) F_a + F_fr = F_a (1 − h_v h_F) + F₋ {…} − F₊ {…} [N], h = 1 − below − above."""
     slower, faster = _outside(law.sharpness, v, law.band, law.band)
     weaker, stronger = _outside(law.sharpness, F_a, F.Fs_minus, F.Fs_plus)

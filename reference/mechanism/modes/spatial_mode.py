@@ -82,17 +82,17 @@ class SpatialMultibody(Multibody):
         self, t: float, q: Array, v: Array, multipliers: Sequence[float]
     ) -> dict[str, float]:
         """(2.60) Forces and moments of first parts on second, by quantity, in ground axes."""
-        found = {}
+        reactions = {}
         for joint in self.scene.joints.values():
             names = ("fx", "fy", "fz", *(("mx", "my", "mz") if joint.holds_attitude else ()))
-            found |= {f"{joint.name}.{name}": 0.0 for name in names}
+            reactions |= {f"{joint.name}.{name}": 0.0 for name in names}
         for each in (
             self._exerted(t, q.tolist(), multipliers),
             self.ingredients.moments(t, q, v),
         ):
             for name, value in each.items():
-                found[name] = found.get(name, 0.0) + value
-        return found
+                reactions[name] = reactions.get(name, 0.0) + value
+        return reactions
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k: the coordinates themselves, quaternions with the length 1.
@@ -191,12 +191,12 @@ class Equations:
         return a, np.asarray(multipliers)
 
     def _together(self, rows: Array, gamma: Array, Q: Array) -> tuple[Array, Array]:
-        """By one matrix that knows nothing of M⁻¹."""
+        """Solves for v̇ and λ by one saddle-point matrix, without M⁻¹."""
         n, matrix = self._n, self._saddle.copy()
         matrix[n:, :n], matrix[:n, n:] = rows, rows.T
         right = np.concatenate((Q, gamma))
         lu, pivots, _ = lapack.dgetrf(matrix.T)  # symmetric: its transpose needs no copy
-        found, _ = lapack.dgetrs(lu, pivots, right)
+        solution, _ = lapack.dgetrs(lu, pivots, right)
         for _ in range(TURNS):
-            found = found + lapack.dgetrs(lu, pivots, right - matrix @ found)[0]
-        return found[:n], -found[n:]
+            solution = solution + lapack.dgetrs(lu, pivots, right - matrix @ solution)[0]
+        return solution[:n], -solution[n:]

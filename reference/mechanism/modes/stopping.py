@@ -28,7 +28,7 @@ LEAST = 1e-14
 
 @dataclass(frozen=True, kw_only=True)
 class Stopping(Element):
-    """The slide.
+    """A slide that viscous friction stops.
 
     oils: its viscous friction, and `exponent` the smallest of theirs. least: a speed [m/s] that is
     none. room: what rounding makes along the slide of weights, and of what else keeps all bodies on

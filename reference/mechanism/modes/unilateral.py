@@ -57,8 +57,8 @@ def paired(pair: Pair, where: Layout) -> Touching:
     """The states of two bodies that touch each other: as of a contact on a plane."""
     return Touching(
         name=pair.name,
-        normal=apart(pair, where),
-        slip=along(pair, where),
+        normal=pair_normal(pair, where),
+        slip=pair_tangent(pair, where),
         static=pair.static,
         kinetic=pair.kinetic,
         restitution=pair.restitution,
@@ -69,7 +69,7 @@ def paired(pair: Pair, where: Layout) -> Touching:
 
 
 @equation
-def apart(pair: Pair, where: Layout) -> Constraint:
+def pair_normal(pair: Pair, where: Layout) -> Constraint:
     """(2.14) Closed, |r_b − r_a| = R + R_a of two rims, n·(r_P − r_a) = R on a face; λ pushes."""
     row: tuple[Term, ...] = (Apart(FIRST, SECOND),)
     if pair.face:
@@ -80,7 +80,7 @@ def apart(pair: Pair, where: Layout) -> Constraint:
 
 
 @equation
-def along(pair: Pair, where: Layout) -> Constraint:
+def pair_tangent(pair: Pair, where: Layout) -> Constraint:
     """(2.15) Nothing slips where both touch; λ is the friction on b.
 
     On a rim u·(ṙ_b − ṙ_a) + R ω_b + R_a ω_a = 0; on a face d/dt u·(r_P − r_a) + R (ω_b − ω_a) = 0,
@@ -114,7 +114,7 @@ class Limited(Element):
 
     @property
     def together(self) -> tuple[str, str]:
-        """Alone."""
+        """Itself alone: it shares its friction with no other."""
         return self.name, ""
 
     def constraints(self, state: State) -> list[Constraint]:
@@ -150,7 +150,7 @@ def roped(scene: Scene, rope: Rope, side: str, where: Layout) -> Limited:
         quantity=quantity,
         normal=taut,
         plane="end of its length",
-        two=_between(rope.a, rope.b),
+        two=_both_bodies(rope.a, rope.b),
     )
 
 
@@ -183,12 +183,12 @@ def stopped(scene: Scene, stops: Stops, side: str, where: Layout) -> Limited:
         normal=struck,
         restitution=stops.back,
         plane=f"{side} stop",
-        two=_between(joint.a, joint.b),
+        two=_both_bodies(joint.a, joint.b),
     )
 
 
-def _between(a: Anchor, b: Anchor) -> bool:
-    """Whether both are of bodies."""
+def _both_bodies(a: Anchor, b: Anchor) -> bool:
+    """Whether both ends belong to bodies."""
     return GROUND not in (a.body, b.body)
 
 

@@ -127,8 +127,8 @@ class DragStops(System):
         elif alpha == 2.0:
             v, x = v0 / (1 + v0 * k * t), math.log1p(v0 * k * t) / k
         else:
-            left = max(0.0, v0 ** (1 - alpha) - (1 - alpha) * k * t)
-            v = left ** (1 / (1 - alpha))
+            power = max(0.0, v0 ** (1 - alpha) - (1 - alpha) * k * t)
+            v = power ** (1 / (1 - alpha))
             x = (v0 ** (2 - alpha) - v ** (2 - alpha)) / ((2 - alpha) * k)
         return np.array([x]), np.array([v])
 

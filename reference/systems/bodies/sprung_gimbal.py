@@ -66,14 +66,14 @@ class SprungGimbal(Mode):
 
     def _torques(self, t: Any, q: Any, v: Any) -> tuple[Any, Any]:
         """(2.45)–(2.50) what spring, damper and motor exert about n₁ and about n₂ [N m]."""
-        one = self.M * np.sin(self.Omega * t) - self.c1 * (q[0] - self.theta0) - self.d1 * v[0]
-        return one, -self.c2 * (q[1] - self.phi0) - self.d2 * v[1]
+        M1 = self.M * np.sin(self.Omega * t) - self.c1 * (q[0] - self.theta0) - self.d1 * v[0]
+        return M1, -self.c2 * (q[1] - self.phi0) - self.d2 * v[1]
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.44) J (θ̈ + κ φ̈) = M₁, J (κ θ̈ + φ̈) = M₂, (2,)."""
-        one, two = self._torques(t, q, v)
+        M1, M2 = self._torques(t, q, v)
         J = self.J * (1 - self.kappa**2)
-        return np.array([(one - self.kappa * two) / J, (two - self.kappa * one) / J])
+        return np.array([(M1 - self.kappa * M2) / J, (M2 - self.kappa * M1) / J])
 
     def reactions(self, t: float, q: Array, v: Array) -> dict[str, float]:
         """(2.23) F = (0, 0, m g) [N]; (2.27) M = J (θ̈ n₁ + φ̈ n₂ + θ̇ φ̇ n₁ × n₂) [N m], with what
@@ -138,17 +138,17 @@ class SprungGimbal(Mode):
         s, k = self.sine, self.kappa
         attitude = (ct * cp - st * k * sp, ct * s * sp, st * s * sp, st * cp + ct * k * sp)
         cos, sin = np.cos(q[1]), np.sin(q[1])
-        one = (s * k * (1 - cos), s * sin, k * k + s * s * cos)
-        omega = (v[0] * one[0] + v[1] * s, v[0] * one[1], v[0] * one[2] + v[1] * k)
+        n1 = (s * k * (1 - cos), s * sin, k * k + s * s * cos)
+        omega = (v[0] * n1[0] + v[1] * s, v[0] * n1[1], v[0] * n1[2] + v[1] * k)
         still = 0.0 * q[0]
         globe = (still, still, still, *attitude, still, still, still, *omega)
         return {"globe": globe, "gimbal.theta": (q[0],), "gimbal.phi": (q[1],)}
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight, and M₁ about n₁ and M₂ about n₂ as one moment, in the plane of both."""
-        one, two = self._torques(t, q, v)
+        M1, M2 = self._torques(t, q, v)
         n2, free = self._second(q), 1 - self.kappa**2
-        first, second = (one - self.kappa * two) / free, (two - self.kappa * one) / free
+        first, second = (M1 - self.kappa * M2) / free, (M2 - self.kappa * M1) / free
         moment = (second * n2[0], second * n2[1], first + second * n2[2])
         weight = (0.0, 0.0, -self.m * G)
         return [Load("globe", (0.0, 0.0, 0.0), weight, tuple(map(float, moment)))]

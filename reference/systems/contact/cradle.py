@@ -102,20 +102,20 @@ class Cradle(System):
         """
         m = np.array([self.m1, self.m2, self.m3])
         q, v = np.array([0.0, self.x2, self.x3]), np.array([self.v0, 0.0, 0.0])
-        found = [(0.0, -1, q, v)]
+        impacts = [(0.0, -1, q, v)]
         while True:
-            t, last, q, v = found[-1]
+            t, last, q, v = impacts[-1]
             gaps, closing = np.diff(q) - 2 * self.R, -np.diff(v)
             waits = [
                 gaps[k] / closing[k] if closing[k] > 0 and k != last else math.inf for k in (0, 1)
             ]
             k = int(np.argmin(waits))
             if not t + waits[k] <= until:
-                return found
+                return impacts
             impulse = (1 + self.e) * closing[k] / (1 / m[k] + 1 / m[k + 1])
             blow = np.zeros(3)
             blow[k], blow[k + 1] = -impulse, impulse
-            found.append((t + waits[k], k, q + waits[k] * v, v + blow / m))
+            impacts.append((t + waits[k], k, q + waits[k] * v, v + blow / m))
 
     def closed_form(self, t: float) -> tuple[Array, Array]:
         """x = x_k + v_k (t − t_k) since the last impact."""

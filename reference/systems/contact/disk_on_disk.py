@@ -97,8 +97,8 @@ class _Disks(Mode):
         """(2.15) ρ̇ = 0, and −ρ θ̇ + r φ̇ + R ψ̇ = 0 where it rolls: λ are N and F."""
         if self.flies:
             return np.zeros((0, 4))
-        one, none = 0.0 * q[0] + 1.0, 0.0 * q[0]
-        rows = [[one, none, none, none]]
+        unit, none = 0.0 * q[0] + 1.0, 0.0 * q[0]
+        rows = [[unit, none, none, none]]
         return np.array(rows if self.sigma else [*rows, [none, -q[0], self.r, self.R]])
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
@@ -126,12 +126,12 @@ class _Disks(Mode):
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The drum's axle, and where both touch: outwards, and downhill where it rolls."""
         cos, sin = math.cos(q[1]), math.sin(q[1])
-        found = [Cut(("axle.fx", "axle.fy"), None, "drum", (0.0, 0.0))]
+        cuts = [Cut(("axle.fx", "axle.fy"), None, "drum", (0.0, 0.0))]
         names, ways = ("touch.normal", "touch.tangent"), ((cos, sin), (sin, -cos))
         if not self.flies:
             k, at = 1 if self.sigma else 2, (self.R * cos, self.R * sin)
-            found.append(Cut(names[:k], "drum", "wheel", at, ways[:k]))
-        return found
+            cuts.append(Cut(names[:k], "drum", "wheel", at, ways[:k]))
+        return cuts
 
 
 @dataclass(frozen=True)
@@ -175,9 +175,9 @@ class DiskOnDisk(System):
         return (leaves,) if mode == "slips" else ()
 
     def _disks(self, mode: str) -> _Disks:
-        found = self.modes[mode]
-        assert isinstance(found, _Disks)
-        return found
+        disks = self.modes[mode]
+        assert isinstance(disks, _Disks)
+        return disks
 
     def _push(self, t: float, q: Array, v: Array) -> float:
         return self._disks("rolls").normal(q, v)

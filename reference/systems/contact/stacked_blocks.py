@@ -75,13 +75,13 @@ class _Blocks(Mode):
         above, below = self.m2 * G / 2, (self.m1 + self.m2) * G / 2
         tips = F2 * self.h2 / (2 * self.w2)
         moment = (self.h1 * (F1 + F2) + self.h2 * F2) / 2 - self.m2 * G * float(q[1] - q[0])
-        found = {
+        normals = {
             "left.normal": above + tips, "right.normal": above - tips,
             "floor_left.normal": below + moment / self.w1,
             "floor_right.normal": below - moment / self.w1,
         }  # fmt: skip
         sticks = {"floor.tangent": F1} if self.s[0] == 0 else {}
-        return found | sticks | ({"upper.tangent": F2} if self.s[1] == 0 else {})
+        return normals | sticks | ({"upper.tangent": F2} if self.s[1] == 0 else {})
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ½ m₁ ẋ₁² + ½ m₂ ẋ₂² [J]."""

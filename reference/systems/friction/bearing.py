@@ -146,9 +146,9 @@ class Bearing(System):
             rate = self.w0 + (over * tau + self.k * tau**2 / 2) / J
         else:
             T, c, ramp = J / self.d, over / self.d, self.k / self.d
-            fades, left = -math.expm1(-tau / T), self.w0 - c + ramp * T
-            rate = self.w0 - left * fades + ramp * tau
-            angle = left * T * fades + (c - ramp * T) * tau + ramp * tau**2 / 2
+            fades, transient = -math.expm1(-tau / T), self.w0 - c + ramp * T
+            rate = self.w0 - transient * fades + ramp * tau
+            angle = transient * T * fades + (c - ramp * T) * tau + ramp * tau**2 / 2
         return np.array([angle]), np.array([rate if t < self._halts() else 0.0])
 
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:

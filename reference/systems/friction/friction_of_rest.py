@@ -28,8 +28,8 @@ class FrictionOfRest(System):
     def __post_init__(self) -> None:
         drawn, N, names = self.drawn, self.m * G, ("touch.tangent", "touch.normal")
         on_guide = modes(self.m, drawn.pull, drawn.dry)
-        found = {name: replace(mode, N=N, names=names) for name, mode in on_guide.items()}
-        object.__setattr__(self, "modes", found)
+        by_name = {name: replace(mode, N=N, names=names) for name, mode in on_guide.items()}
+        object.__setattr__(self, "modes", by_name)
 
     @cached_property
     def drawn(self) -> Dynamometer:

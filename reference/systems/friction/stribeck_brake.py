@@ -98,10 +98,10 @@ class StribeckBrake(System):
 
     def _halts(self) -> float:
         """[s]; never where the push is more than friction is at v₀."""
-        left, slow = self.F - self.P, self.m * self.v_s
-        share = left * math.expm1(self.v0 / self.v_s) / (self.Fs - self.P)
+        net, slow = self.F - self.P, self.m * self.v_s
+        share = net * math.expm1(self.v0 / self.v_s) / (self.Fs - self.P)
         if share <= -1.0:
             return math.inf
-        if not left:
+        if not net:
             return slow * math.expm1(self.v0 / self.v_s) / (self.Fs - self.P)
-        return slow / left * math.log1p(share)
+        return slow / net * math.log1p(share)

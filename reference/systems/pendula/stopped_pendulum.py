@@ -37,11 +37,11 @@ class _Bar(Mode):
         """(2.23), (2.27) F = m r̈_c − m g [N]; at rest the stop's M = ½ m g l cos φ [N m]."""
         rate, change = float(v[0]), float(self.accelerations(t, q, v)[0])
         cos, sin, arm = math.cos(q[0]), math.sin(q[0]), self.m * self.l / 2
-        found = {
+        forces = {
             "hinge.fx": -arm * (sin * change + cos * rate**2),
             "hinge.fy": arm * (cos * change - sin * rate**2) + self.m * G,
         }
-        return found | ({"stop.low": arm * G * cos} if self.rests else {})
+        return forces | ({"stop.low": arm * G * cos} if self.rests else {})
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
         """(2.53) T = ⅙ m l² φ̇² [J]."""
@@ -115,12 +115,12 @@ class StoppedPendulum(System):
 
     def closed_events(self, until: float) -> list[tuple[str, float]]:
         """The strikes up to `until`, as far as they are told apart."""
-        found = []
+        strikes = []
         for t in self._strikes():
-            if t > until or (found and t - found[-1][1] < 1e-3 * until):
+            if t > until or (strikes and t - strikes[-1][1] < 1e-3 * until):
                 break
-            found.append(("strikes", t))
-        return found
+            strikes.append(("strikes", t))
+        return strikes
 
     def _strikes(self) -> Iterator[float]:
         """sin(θ/2) = k sin ψ, θ from hanging: from the top, ψ = ½ π, on it takes (K − F(ψ))/Ω.

@@ -62,9 +62,9 @@ class TorsionPendulum(Mode):
         slow, fast = (-self.d + root) / (2 * J), (-self.d - root) / (2 * J)
         x0, u0 = self.phi - self.phi0 - A.imag, self.w0 - (1j * self.Omega * A).imag
         B, C = (u0 - fast * x0) / (slow - fast), (slow * x0 - u0) / (slow - fast)
-        drive, one, two = (cmath.exp(z * t) for z in (1j * self.Omega, slow, fast))
-        x = (A * drive).imag + (B * one + C * two).real
-        rate = (1j * self.Omega * A * drive).imag + (slow * B * one + fast * C * two).real
+        drive, e_slow, e_fast = (cmath.exp(z * t) for z in (1j * self.Omega, slow, fast))
+        x = (A * drive).imag + (B * e_slow + C * e_fast).real
+        rate = (1j * self.Omega * A * drive).imag + (slow * B * e_slow + fast * C * e_fast).real
         return np.array([self.phi0 + x]), np.array([rate])
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:

@@ -93,14 +93,14 @@ class Moving:
 def places(q: Vector) -> list[Place]:
     """(2.8)–(2.12) R_k and E_k of every body as functions of q."""
     cos, sin = np.cos(q).tolist(), np.sin(q).tolist()
-    found, E, p = [], GROUND, NIL
+    frames, E, p = [], GROUND, NIL
     for k, link in enumerate(LINKS):
         E = about(E, link.axis, cos[k], sin[k])
         c = minus(p, grounded(E, link.a))
         end = plus(c, grounded(E, link.b))
-        found.append(Place(E, p, E[link.axis], c, end))
+        frames.append(Place(E, p, E[link.axis], c, end))
         p = end
-    return found
+    return frames
 
 
 @equation
@@ -109,7 +109,7 @@ def outward(where: list[Place], v: Any, a: Any) -> list[Moving]:
 
     ω_k = ω_{k−1} + q̇_k u_k, and so ω̇_k = ω̇_{k−1} + q̈_k u_k + ω_{k−1} × q̇_k u_k.
     """
-    found, omega, omega_dot, p_ddot = [], NIL, NIL, NIL
+    bodies, omega, omega_dot, p_ddot = [], NIL, NIL, NIL
     for place, rate, change in zip(where, v, a, strict=True):
         carried = cross(omega, times(rate, place.u))
         omega_dot = plus(plus(omega_dot, times(change, place.u)), carried)
@@ -119,9 +119,9 @@ def outward(where: list[Place], v: Any, a: Any) -> list[Moving]:
             x = minus(point, place.p)
             turning = plus(cross(omega_dot, x), cross(omega, cross(omega, x)))
             ends.append(plus(p_ddot, turning))
-        found.append(Moving(omega, omega_dot, *ends))
+        bodies.append(Moving(omega, omega_dot, *ends))
         p_ddot = ends[1]
-    return found
+    return bodies
 
 
 @equation
@@ -133,7 +133,7 @@ def inward(
     M_k = J ω̇ + ω × J ω + (c − p) × m (r̈_c − g) + M_{k+1} + (end − p) × F_{k+1}: what body k − 1
     exerts on body k [N, N m]. tip: a force that acts at the hand's end.
     """
-    found: list[tuple[Triple, Triple]] = []
+    wrenches: list[tuple[Triple, Triple]] = []
     F, M = times(-1.0, tip), NIL
     for link, place, at in zip(LINKS[::-1], where[::-1], moving[::-1], strict=True):
         omega, omega_dot = embodied(place.E, at.omega), embodied(place.E, at.omega_dot)
@@ -143,8 +143,8 @@ def inward(
         M = plus(plus(M, cross(minus(place.end, place.p), F)), grounded(place.E, D_dot))
         M = plus(M, cross(minus(place.c, place.p), own))
         F = plus(F, own)
-        found.append((F, M))
-    return found[::-1]
+        wrenches.append((F, M))
+    return wrenches[::-1]
 
 
 @equation

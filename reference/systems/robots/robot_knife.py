@@ -70,8 +70,8 @@ class RobotKnife(SerialArm):
         drift = [hand.end_ddot[2], dot(n, hand.end_ddot) - _turn(where, hand.omega) * dot(e, P_dot)]
         matrix = np.block([[mass_matrix(where), -rows.T], [rows, np.zeros((2, 2))]])
         right = np.negative([*bias(where, rates), *drift])
-        found: Any = np.linalg.solve(matrix, right)
-        return found[:5], found[5:]
+        solution: Any = np.linalg.solve(matrix, right)
+        return solution[:5], solution[5:]
 
     def accelerations(self, t: float, q: Array, v: Array) -> Array:
         """(2.60) as `guided` has it [rad/s²], (5,)."""
@@ -111,10 +111,10 @@ def heading(where: list[Place]) -> tuple[Triple, Triple]:
 @equation
 def _velocity(where: list[Place], rates: list[float]) -> Triple:
     """(2.6) ṙ_P = Σ q̇_j u_j × (P − p_j) [m/s]."""
-    found = (0.0, 0.0, 0.0)
+    velocity = (0.0, 0.0, 0.0)
     for place, rate in zip(where, rates, strict=True):
-        found = plus(found, cross(times(rate, place.u), minus(where[-1].end, place.p)))
-    return found
+        velocity = plus(velocity, cross(times(rate, place.u), minus(where[-1].end, place.p)))
+    return velocity
 
 
 def _turn(where: list[Place], omega: Triple) -> Any:

@@ -31,14 +31,14 @@ class SerialArm(Mode):
 
         ṙ_c = Σ_j q̇_j u_j × (c − p_j), and ω = Σ_j q̇_j u_j in body axes.
         """
-        where, found = places(q), 0.0
+        where, energy = places(q), 0.0
         for k, (link, place) in enumerate(zip(LINKS, where, strict=True)):
             hinges = where[: k + 1]
             c_dot = np.array([cross(h.u, minus(place.c, h.p)) for h in hinges]).T @ v[: k + 1]
             omega = np.array([embodied(place.E, h.u) for h in hinges]).T @ v[: k + 1]
             spin = omega * (self.masses[link.name].J @ omega)
-            found = found + (link.m * np.sum(c_dot**2, axis=0) + np.sum(spin, axis=0)) / 2
-        return found
+            energy = energy + (link.m * np.sum(c_dot**2, axis=0) + np.sum(spin, axis=0)) / 2
+        return energy
 
     def U(self, t: Any, q: Vector) -> Any:
         """(2.45) U = Σ m g z_c [J]."""
@@ -51,7 +51,7 @@ class SerialArm(Mode):
         The quaternion is the product of those of the turns: it is smooth in q, over any turns.
         """
         (*cos,), (*sin,) = np.cos(q / 2).tolist(), np.sin(q / 2).tolist()
-        found: dict[str, Pose] = {}
+        poses: dict[str, Pose] = {}
         w, x = 1.0, NIL
         omega, p_dot = NIL, NIL
         for k, (link, place) in enumerate(zip(LINKS, places(q), strict=True)):
@@ -63,8 +63,8 @@ class SerialArm(Mode):
             omega = plus(omega, times(v[k], place.u))
             c_dot = plus(p_dot, cross(omega, minus(place.c, place.p)))
             p_dot = plus(p_dot, cross(omega, minus(place.end, place.p)))
-            found[link.name] = (*place.c, w, *x, *c_dot, *embodied(place.E, omega))
-        return found
+            poses[link.name] = (*place.c, w, *x, *c_dot, *embodied(place.E, omega))
+        return poses
 
     def joint_reactions(
         self, where: list[Place], moving: list[Moving], tip: Triple = NIL
@@ -87,11 +87,11 @@ class SerialArm(Mode):
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The hinges: a force each, and moments about the body's two axes across the hinge's."""
-        found = []
+        cuts = []
         for k, (link, place) in enumerate(zip(LINKS, places(q), strict=True)):
             across = tuple(place.E[(link.axis + i) % 3] for i in (1, 2))
             joint = self.coordinates[k]
             names = tuple(f"{joint}.{field}" for field in ("fx", "fy", "fz", "across1", "across2"))
             before = NAMES[k - 1] if k else None
-            found.append(Cut(names, before, link.name, place.p, AXES, moments=across))
-        return found
+            cuts.append(Cut(names, before, link.name, place.p, AXES, moments=across))
+        return cuts

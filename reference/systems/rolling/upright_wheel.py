@@ -57,8 +57,8 @@ def _less_its_sine(x: float) -> float:
     """x − sin x, to all digits: by its series where both are nearly equal."""
     if abs(x) > 1.0:
         return x - math.sin(x)
-    term, found = x**3 / 6, 0.0
+    term, total = x**3 / 6, 0.0
     for n in range(4, 24, 2):  # x²³/23! is below rounding, relative to x³/6
-        found += term
+        total += term
         term *= -x * x / (n * (n + 1))
-    return found
+    return total

@@ -27,17 +27,17 @@ class ArmStates(SerialArm, Stated):
     def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """ω from Ė, ω̇ and r̈ outward, M_ab, and the torques u_k · M_k inward."""
         where = places(q)
-        found: dict[str, Any] = {"mass_matrix": mass_matrix(where)}
+        values: dict[str, Any] = {"mass_matrix": mass_matrix(where)}
         moving = outward(where, v.tolist(), a.tolist())
         for name, at in zip(NAMES, moving, strict=True):
-            found |= _by_axis(f"{name}.a", at.c_ddot) | _by_axis(f"{name}.alpha_", at.omega_dot)
-        found |= _by_axis("hand.P.a", moving[-1].end_ddot)
+            values |= _by_axis(f"{name}.a", at.c_ddot) | _by_axis(f"{name}.alpha_", at.omega_dot)
+        values |= _by_axis("hand.P.a", moving[-1].end_ddot)
         for k, (place, (_, M)) in enumerate(zip(where, inward(where, moving), strict=True)):
-            found[f"q{k + 1}.torque"] = dot(place.u, M)
+            values[f"q{k + 1}.torque"] = dot(place.u, M)
         for name, place, E_dot in zip(NAMES, where, turning(q, v), strict=True):
             omega = angular_velocity(np.array(place.E), E_dot)
-            found |= {f"{name}.omega_{i}": x for i, x in enumerate(omega, start=1)}
-        return found
+            values |= {f"{name}.omega_{i}": x for i, x in enumerate(omega, start=1)}
+        return values
 
 
 def turning(q: Array, v: Array) -> Iterator[Array]:

@@ -75,27 +75,27 @@ class HungShapes(Stated):
 
     def poses(self, t: Any, q: Vector, v: Vector) -> dict[str, Pose]:
         """(2.8) R_k, E_k, turned about u, and (2.6) their rates."""
-        found: dict[str, Pose] = {}
+        poses: dict[str, Pose] = {}
         for (name, body), angle, rate in zip(self.bodies().items(), q, v, strict=True):
             r = about(body.u, angle, body.a)
             half = np.sin(angle / 2) * body.u
             r_dot = np.cross(rate * body.u, r)
-            found[name] = (*r, np.cos(angle / 2), *half, *r_dot, *(rate * body.u))
-        return found
+            poses[name] = (*r, np.cos(angle / 2), *half, *r_dot, *(rate * body.u))
+        return poses
 
     def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """Torque of each hinge in addition to the weight's moment; tensors about C, M and T."""
-        found: dict[str, Any] = {}
+        values: dict[str, Any] = {}
         M = np.zeros((4, 4))
         for k, ((name, body), angle) in enumerate(zip(self.bodies().items(), q, strict=True)):
             J33 = float(body.u @ steiner(body.J, body.m, body.a) @ body.u)
             down = np.array([0.0, 0.0, -body.m * G])
             weight = body.u @ np.cross(about(body.u, angle, body.a), down)
-            found[f"{name}_hinge.torque"] = axis_moment(J33, a[k]) - weight
-            found |= {f"{name}.inertia_{ik}": body.J[at] for ik, at in COLUMNS.items()}
+            values[f"{name}_hinge.torque"] = axis_moment(J33, a[k]) - weight
+            values |= {f"{name}.inertia_{ik}": body.J[at] for ik, at in COLUMNS.items()}
             M[k, k] = J33
         T = float(v @ M @ v) / 2
-        return {**found, "mass_matrix": M, "energy.kinetic": T}
+        return {**values, "mass_matrix": M, "energy.kinetic": T}
 
 
 def about(u: Array, angle: Any, x: Array) -> Any:

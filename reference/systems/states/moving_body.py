@@ -106,11 +106,11 @@ def frame(psi: Any, theta: Any, phi: Any) -> Any:
 
 def slopes(psi: Any, theta: Any, phi: Any) -> tuple[Any, Any, Any]:
     """∂E/∂ψ, ∂E/∂θ, ∂E/∂φ, (3, 3) each."""
-    one, two, three = _about(0, phi), _about(1, theta), _about(2, psi)
+    roll, pitch, yaw = _about(0, phi), _about(1, theta), _about(2, psi)
     return (
-        one @ two @ _about(2, psi, slope=True),
-        one @ _about(1, theta, slope=True) @ three,
-        _about(0, phi, slope=True) @ two @ three,
+        roll @ pitch @ _about(2, psi, slope=True),
+        roll @ _about(1, theta, slope=True) @ yaw,
+        _about(0, phi, slope=True) @ pitch @ yaw,
     )
 
 
@@ -119,13 +119,13 @@ def spin_rates(q: Array, v: Array, a: Array) -> Array:
     + φ̇ (1, 0, 0)."""
     (_, theta, phi), (psi_dot, theta_dot, phi_dot) = q.tolist(), v.tolist()
     s, c, sf, cf = np.sin(theta), np.cos(theta), np.sin(phi), np.cos(phi)
-    one, two = np.array([-s, c * sf, c * cf]), np.array([0.0, cf, -sf])
-    one_dot = theta_dot * np.array([-c, -s * sf, -s * cf]) + phi_dot * np.array(
+    e1, e2 = np.array([-s, c * sf, c * cf]), np.array([0.0, cf, -sf])
+    e1_dot = theta_dot * np.array([-c, -s * sf, -s * cf]) + phi_dot * np.array(
         [0.0, c * cf, -c * sf]
     )
-    two_dot = phi_dot * np.array([0.0, -sf, -cf])
-    three = np.array([1.0, 0.0, 0.0])
-    return a @ np.array([one, two, three]) + psi_dot * one_dot + theta_dot * two_dot
+    e2_dot = phi_dot * np.array([0.0, -sf, -cf])
+    e3 = np.array([1.0, 0.0, 0.0])
+    return a @ np.array([e1, e2, e3]) + psi_dot * e1_dot + theta_dot * e2_dot
 
 
 def hinges(psi: Any, theta: Any, phi: Any) -> Any:
@@ -136,12 +136,12 @@ def hinges(psi: Any, theta: Any, phi: Any) -> Any:
 
 def _about(axis: int, angle: Any, *, slope: bool = False) -> Any:
     """(3, 3) the turn about one axis, or its derivative by the angle."""
-    c, s, one = (np.cos(angle), np.sin(angle), 1.0)
+    c, s, unit = (np.cos(angle), np.sin(angle), 1.0)
     if slope:
-        c, s, one = -s, c, 0.0
+        c, s, unit = -s, c, 0.0
     i, j = (axis + 1) % 3, (axis + 2) % 3
     E = np.zeros((3, 3), np.result_type(angle, float))
-    E[axis, axis], E[i, i], E[j, j], E[i, j], E[j, i] = one, c, c, s, -s
+    E[axis, axis], E[i, i], E[j, j], E[i, j], E[j, i] = unit, c, c, s, -s
     return E
 
 

@@ -47,7 +47,7 @@ class PlanarBodies(Stated):
 
     def quantities(self, q: Array, v: Array, a: Array) -> dict[str, Any]:
         """Points, momenta, the energy, and J₃₃, which is D_c of ω = 1."""
-        found: dict[str, Any] = {}
+        values: dict[str, Any] = {}
         T, p, D = 0.0, np.zeros(3), 0.0
         places, rates = np.reshape(q, (3, 3)), np.reshape(v, (3, 3))
         for name, (m, J), (x, y, phi), (vx, vy, w) in zip(
@@ -58,14 +58,14 @@ class PlanarBodies(Stated):
             T += of_center(m, tensor, r_dot, omega)
             p = p + momentum(m, r_dot)
             D += float(angular_momentum(m, tensor, r, r_dot, omega)[2])
-            found[f"{name}.inertia"] = spin_momentum(tensor, np.array([0.0, 0.0, 1.0]))[2]
+            values[f"{name}.inertia"] = spin_momentum(tensor, np.array([0.0, 0.0, 1.0]))[2]
             cos, sin = np.cos(phi), np.sin(phi)
             E = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
             at = {"rod": np.array([self.l / 2, 0.0, 0.0]), "box": np.array([self.p1, self.p2, 0.0])}
             if name in at:
                 end = f"{name}.{'end' if name == 'rod' else 'P'}"
                 place, moving = point(r, E, at[name]), velocity(r_dot, omega, at[name] @ E)
-                found |= {f"{end}.x": place[0], f"{end}.y": place[1]}
-                found |= {f"{end}.vx": moving[0], f"{end}.vy": moving[1]}
-        return {**found, "energy.kinetic": T, "momentum.x": p[0], "momentum.y": p[1],
+                values |= {f"{end}.x": place[0], f"{end}.y": place[1]}
+                values |= {f"{end}.vx": moving[0], f"{end}.vy": moving[1]}
+        return {**values, "energy.kinetic": T, "momentum.x": p[0], "momentum.y": p[1],
                 "momentum.angular": D}  # fmt: skip

@@ -68,9 +68,9 @@ class SlidingPoints(Stated):
             "pad": rubbed, "air": complex(*blown), "scales": gliding * axis, "skate": slowed * axis,
         }  # fmt: skip
         p = momentum(self.m, np.array([ball.real + sled.real, ball.imag + sled.imag, 0.0]))
-        told = {
+        components = {
             f"{name}.{field}": x
             for name, F in forces.items()
             for field, x in (("fx", F.real), ("fy", F.imag), ("force", abs(F)))
         }
-        return {**told, "momentum.x": p[0], "momentum.y": p[1]}
+        return {**components, "momentum.x": p[0], "momentum.y": p[1]}

@@ -54,10 +54,10 @@ class _Stance(Mode):
         N, across = p.m * p.c * p.l, math.sin(s - w)
         A, B, C = p.about_foot, p.about_hip, N * math.cos(s - w)
         lever = p.M * p.l + p.m * (p.l - p.c) + p.m * p.l
-        one = N * across * w_dot**2 + G * lever * math.sin(s + p.gamma)
-        two = -N * across * s_dot**2 - p.m * G * p.c * math.sin(w + p.gamma)
+        f_s = N * across * w_dot**2 + G * lever * math.sin(s + p.gamma)
+        f_w = -N * across * s_dot**2 - p.m * G * p.c * math.sin(w + p.gamma)
         D = A * B - C * C
-        return np.array(self._entries(0.0, (B * one + C * two) / D, (A * two + C * one) / D))
+        return np.array(self._entries(0.0, (B * f_s + C * f_w) / D, (A * f_w + C * f_s) / D))
 
     def _places(self, q: Vector, v: Vector) -> tuple[tuple[Any, ...], ...]:
         """x, y, ẋ, ẏ of the standing leg's centre, the swinging one's, and the hip."""
@@ -109,12 +109,12 @@ class _Stance(Mode):
         swinging = -p.m * (hip - p.c * up[1] - g)  # the force of the swinging leg on the hip
         standing = p.M * (hip - g) - swinging
         floor = p.m * (stands - g) + standing
-        found = {f"{LEGS[self.k]}_foot": floor}
+        forces = {f"{LEGS[self.k]}_foot": floor}
         names = ("tangent", "normal"), ("fx", "fy")
-        found |= {f"{LEGS[self.k]}_hip": standing, f"{LEGS[1 - self.k]}_hip": swinging}
+        forces |= {f"{LEGS[self.k]}_hip": standing, f"{LEGS[1 - self.k]}_hip": swinging}
         return {
             f"{part}.{name}": float(x)
-            for part, force in found.items()
+            for part, force in forces.items()
             for name, x in zip(names["hip" in part], force, strict=True)
         }
 
@@ -122,20 +122,20 @@ class _Stance(Mode):
         """(2.8) R_k; a leg's angle is that of a bar from foot to hip: 90° − a."""
         stands, swings, hip = self._places(q, v)
         both = (stands, swings) if self.k == 0 else (swings, stands)
-        found: dict[str, Pose] = {}
+        poses: dict[str, Pose] = {}
         for name, (x, y, x_dot, y_dot), a, a_dot in zip(LEGS, both, q[1:], v[1:], strict=True):
-            found[name] = (x, y, math.pi / 2 - a, x_dot, y_dot, -a_dot)
+            poses[name] = (x, y, math.pi / 2 - a, x_dot, y_dot, -a_dot)
         x, y, x_dot, y_dot = hip
-        return {**found, "hip": (x, y, 0.0, x_dot, y_dot, 0.0)}
+        return {**poses, "hip": (x, y, 0.0, x_dot, y_dot, 0.0)}
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weights, in the axes of the slope."""
-        found = []
+        loads = []
         for name, (x, y, *_) in self.poses(t, q, v).items():
             m = self.masses[name].m
             down = (m * G * math.sin(self.walker.gamma), -m * G * math.cos(self.walker.gamma))
-            found.append(Load(name, (float(x), float(y)), down))
-        return found
+            loads.append(Load(name, (float(x), float(y)), down))
+        return loads
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The foot that stands, and the hip on either leg."""

@@ -96,12 +96,12 @@ class SpokeSteps(Numbered):
 
     def strikes(self, omega: float, until: float) -> list[float] | None:
         """The times [s] of all strikes up to `until`, from a strike; None where it falls back."""
-        t, found = 0.0, list[float]()
+        t, times = 0.0, list[float]()
         while self.walks_over(omega):
             t += self.lasts(omega)
             if t > until:
-                return found
-            found.append(t)
+                return times
+            times.append(t)
             omega = self.next_rate(omega)
         return None
 
@@ -270,23 +270,23 @@ class RimlessWheel(System):
         def rests(t: float, q: Array, v: Array) -> tuple[str, Array, Array]:
             return f"rests {between}", np.array([phi]), np.zeros(1)
 
-        left = lambda t, q, v: way * (phi - float(q[0]))  # noqa: E731
-        return Guard(f"spoke {k + way} strikes", left, then, rests)
+        gap = lambda t, q, v: way * (phi - float(q[0]))  # noqa: E731
+        return Guard(f"spoke {k + way} strikes", gap, then, rests)
 
     def _steps(self) -> SpokeSteps:
         return SpokeSteps(self.n, self.l, self.J / (self.m * self.l**2), self.gamma)
 
     def closed_form(self, t: float) -> tuple[Array, Array] | None:
         """φ and φ̇ by energy and impact; None where it has come to fall back."""
-        found = self._steps().after(self.w0, t)
-        return found and (np.array(found[:1]), np.array(found[1:]))
+        state = self._steps().after(self.w0, t)
+        return state and (np.array(state[:1]), np.array(state[1:]))
 
     def closed_events(self, until: float) -> list[tuple[str, float]] | None:
         """The strikes up to `until` by energy and impact; None where it comes to fall back."""
-        found = self._steps().strikes(self.w0, until)
-        if found is None:
+        times = self._steps().strikes(self.w0, until)
+        if times is None:
             return None
-        return [(f"spoke {k} strikes", t) for k, t in enumerate(found, start=2)]
+        return [(f"spoke {k} strikes", t) for k, t in enumerate(times, start=2)]
 
     def possible(self, mode: str, t: float, q: Array, v: Array) -> str | None:
         """(2.89) |F_fr| ≤ μ F_N and F_N > 0 where it stands, and no other tip in the floor."""

@@ -77,12 +77,12 @@ class _Trunk(Mode):
 
     def loads(self, t: float, q: Array, v: Array) -> list[Load]:
         """(2.81) weight at the centre, (2.82) the legs at their hips."""
-        found = [Load("trunk", (0.0, float(q[0])), (0.0, -self.m * G))]
+        loads = [Load("trunk", (0.0, float(q[0])), (0.0, -self.m * G))]
         for name, (x, y, _) in zip(self.legs, self._pushes(q), strict=True):
             foot = ENDS[name] * self.l
             dx, dy, _ = self.leg(name, q)
-            found.append(Load("trunk", (foot + float(dx), float(dy)), (float(x), float(y))))
-        return found
+            loads.append(Load("trunk", (foot + float(dx), float(dy)), (float(x), float(y))))
+        return loads
 
     def cuts(self, t: float, q: Array) -> list[Cut]:
         """The guide holds the centre sideways only."""

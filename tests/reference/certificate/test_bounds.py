@@ -67,7 +67,7 @@ def test_a_reaction_that_goes_through_zero_is_a_sum_of_what_is_large(monkeypatch
     check = row(TRUNK, "generated reactions")
     assert (check.bound, check.holds) == (reaction_check.AGREE, True)
     monkeypatch.setattr(reaction_check, "_borne", lambda *_: 0.0)
-    monkeypatch.setattr(reaction_check, "_steep", lambda *_: 0.0)
+    monkeypatch.setattr(reaction_check, "_sensitivity", lambda *_: 0.0)
     assert not row(TRUNK, "generated reactions").holds
 
 
@@ -93,7 +93,7 @@ def test_on_the_threshold_of_smooth_friction_the_laws_slope_multiplies_rounding(
     case = replace(SMOOTH, duration=3.0, samples=31)  # at 1.5 s the spring pulls with 6 N: F_s
     check = row(case, "generated accelerations")
     assert (check.bound, check.holds) == (reaction_check.AGREE, True)
-    monkeypatch.setattr(reaction_check, "_steep", lambda *_: 0.0)
+    monkeypatch.setattr(reaction_check, "_sensitivity", lambda *_: 0.0)
     assert not row(case, "generated accelerations").holds
 
 
@@ -152,7 +152,7 @@ def test_the_error_of_a_stiff_motion_is_that_of_another_tolerance(monkeypatch: P
     known_to = known(1e-9)
     assert 1e-14 < known_to < 1e-10
     assert known(1e-6) > 100 * known_to
-    monkeypatch.setattr(certify, "_other", lambda mode, f, n: either(mode, f, n))
+    monkeypatch.setattr(certify, "_other_method", lambda mode, f, n: either(mode, f, n))
     assert known(1e-9) < known_to / 1000  # nothing is left but rounding
 
 

@@ -316,7 +316,7 @@ allow: {q.my: 1.0e-3}
     assert error(case, "q.my") > 1e-18
     with pytest.raises(CaseError, match=ASKS):
         solve(replace(case, allow={"q.my": 1e-30}))
-    monkeypatch.setattr(errors, "_beside", lambda case, motion, name: iter(()))
+    monkeypatch.setattr(errors, "_peers", lambda case, motion, name: iter(()))
     assert error(case, "q.my") < 1e-20
 
 
@@ -345,7 +345,7 @@ allow: {a.x: 1.0e-6, a.y: 1.0e-3}
     bold = claimed(tmp_path, text.replace("a.x: 1.0e-6", "a.x: 1.0e-12"))
     with pytest.raises(CaseError, match=r"give at least 4e-07\n"):
         solve(bold)
-    monkeypatch.setattr(answer, "_rounded", lambda case: {})
+    monkeypatch.setattr(answer, "_rounding_answers", lambda case: {})
     assert error(bold, "a.x") < 1e-2 * off
 
 
@@ -516,5 +516,5 @@ events: {strikes: {knock.gap: falls to zero}}
     mistake = refused(case)
     assert mistake.where == "allow.rail.work"
     assert "something strikes at 0.34 s" in mistake.what
-    monkeypatch.setattr(assumptions, "_struck", lambda *_: [])
+    monkeypatch.setattr(assumptions, "_blow_work", lambda *_: [])
     assert solve(case).trajectory.times[-1] == 1.0

@@ -254,7 +254,7 @@ LIGHTER = (
     lambda self, t, q, v: T(self, t, q, v) + 0.5e-9 * self.masses["b"].J * v[2] * v[2],
 )  # fmt: skip
 LOOSER = (Multibody, "U", lambda self, t, q: U(self, t, q) + 1e-8 * np.sum(q))
-ONE = (lagrange, "_even", lambda M, energy, most: np.ones(len(M)))
+ONE = (lagrange, "_equal_energy_rates", lambda M, energy, most: np.ones(len(M)))
 # By what is planted: the scene, what is replaced, and the rows of which at least one breaks.
 PLANTED: dict[str, tuple[str, tuple[Any, str, Any], set[str]]] = {
     # 1e-8 N and N m more along all coordinates: accelerations show it where nothing has power.
@@ -342,7 +342,7 @@ def test_a_fast_rotor_keeps_nothing_else_near(monkeypatch: Patch) -> None:
 initial: {{rail: {{shift: 0, shift_dot: 10}}, spin: {{angle: 0, omega: 1.0e+4}}}}
 allow: {{sled.x: 1.0e-3}}
 """
-    sound, slid = laws.drawn, list[float]()
+    sound, slid = laws.states, list[float]()
 
     def kept(mode: Any, times: Array, y: Array, *given: Any) -> Iterator[Any]:
         for t, q, v in sound(mode, times, y, *given):
@@ -350,7 +350,7 @@ allow: {{sled.x: 1.0e-3}}
             slid.append(abs(mode.poses(t, q, v)["sled"][0] - here["sled"][0]))
             yield t, q, v
 
-    monkeypatch.setattr(laws, "drawn", kept)
+    monkeypatch.setattr(laws, "states", kept)
     for planted in (False, True):
         if planted:
             patched = lambda self, mode, t, q, n: np.full(n, np.inf)  # noqa: E731
@@ -528,7 +528,7 @@ def test_equations_that_lost_half_of_their_digits_are_not_asked(light: float, as
 def test_states_beside_a_motion_are_such_as_the_mode_allows(name: str) -> None:
     """And elsewhere than the motion was."""
     mode, y = motion(name)
-    found = list(laws.drawn(mode, TIMES, y, 20))
+    found = list(laws.states(mode, TIMES, y, 20))
     assert len(found) == 20
     assert min(np.max(np.abs(q - row[: len(q)])) for _, q, _ in found for row in y) > 1e-3
     for t, q, v in found:
@@ -542,10 +542,10 @@ def test_states_beside_a_motion_are_such_as_the_mode_allows(name: str) -> None:
 
 def test_a_long_way_keeps_the_length_of_a_quaternion_or_is_not_gone() -> None:
     mode, q = FORMAL["top"], np.array([0.5, 0.5, 0.5, 0.5])
-    there = laws.moved(mode, 0.0, q, np.array([0.9, -0.8, 0.7]))
+    there = laws.midpoint_step(mode, 0.0, q, np.array([0.9, -0.8, 0.7]))
     assert there is not None
     assert abs(there @ there - 1.0) < 1e-15
-    assert laws.moved(mode, 0.0, q, np.array([90.0, -80.0, 70.0])) is None
+    assert laws.midpoint_step(mode, 0.0, q, np.array([90.0, -80.0, 70.0])) is None
 
 
 def test_where_the_mode_has_no_answer_another_state_is_drawn() -> None:
@@ -556,6 +556,6 @@ def test_where_the_mode_has_no_answer_another_state_is_drawn() -> None:
             raise ArithmeticError("too far")
         return sound.accelerations(t, q, v)
 
-    found = [q for _, q, _ in laws.drawn(mutant(sound, accelerations=accelerations), TIMES, y, 20)]
+    found = [q for _, q, _ in laws.states(mutant(sound, accelerations=accelerations), TIMES, y, 20)]
     assert len(found) == 20
     assert all(np.min(np.abs(y[:, 0] - q[0])) < 1e-2 for q in found)

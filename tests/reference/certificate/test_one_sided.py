@@ -239,7 +239,7 @@ def bounces(*given: Any, **named: Any) -> Any:
     return touching, [replace(m, after=1.0001 * m.after) for m in met]
 
 
-ALONG, NORMAL, SIGN = unilateral.along, element.normal, blow.sign
+ALONG, NORMAL, SIGN = unilateral.pair_tangent, element.normal, blow.sign
 SLACK, TANGENT = unilateral.OneSided.slack, element.tangent
 ROPED, STOPPED, MARGINS = unilateral.roped, unilateral.stopped, element.Sliding.margins
 MEETINGS = landing._meetings
@@ -260,7 +260,7 @@ MISTAKES: dict[str, tuple[Callable[[pytest.MonkeyPatch], object], list[str], set
         lambda patch: patch.setitem(LIMITS, Rope, ends_at(ROPED, 1.0001)), ["a rope"], {PASSES},
     ),
     "a rim on a face slips elsewhere": (
-        lambda patch: patch.setattr(unilateral, "along", slips_along),
+        lambda patch: patch.setattr(unilateral, "pair_tangent", slips_along),
         ["a disk on a face"], {FRICTION},
     ),
     "a blow rubs by another coefficient": (

@@ -18,7 +18,7 @@ from given.laws.certified import certified, stated
 from textmech.cases.case import Case
 from textmech.reference.certificate import certify, errors
 from textmech.reference.certificate import event_time_error as timed
-from textmech.reference.certificate.event_time_error import untimed
+from textmech.reference.certificate.event_time_error import time_bound
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 from textmech.reference.system import Array, Guard, Mode, System
@@ -124,7 +124,7 @@ def followed(known: Known) -> tuple[float, float]:
     """By how much [s] the time of the first event is off, and may be."""
     until = 1.5 * float(known.time)
     found = follow(known.system, np.linspace(0.0, until, SAMPLES))
-    return abs(float(found.events[0].time - known.time)), untimed(known.system, found)
+    return abs(float(found.events[0].time - known.time)), time_bound(known.system, found)
 
 
 KINDS: dict[str, Callable[[np.random.Generator], Known]] = {
@@ -175,7 +175,7 @@ samples: {SAMPLES}
     case = scenes.scene("dry_slide", text, static=static, kinetic=kinetic)
     system = scenes.mechanism(case)
     found = follow(system, case.times)
-    return abs(float(found.changes[1].time - stops)), untimed(system, found)
+    return abs(float(found.changes[1].time - stops)), time_bound(system, found)
 
 
 @pytest.mark.slow
@@ -197,7 +197,7 @@ def test_the_time_of_a_stop_is_off_by_no_more_than_is_stated(monkeypatch: Patch)
 @pytest.mark.parametrize("kind", ["throw", "swing"])
 def test_an_error_without_the_slope_is_seen(kind: str, monkeypatch: Patch) -> None:
     """As it was: a time was known as well as a double is, however flat the guard."""
-    monkeypatch.setattr(timed, "_within", lambda g, room, t, most: math.ulp(t))
+    monkeypatch.setattr(timed, "_time_below", lambda g, room, t, most: math.ulp(t))
     with mpmath.workdps(40):
         found = [followed(known) for known in drawn(kind, 1)]
     assert any(off > 100.0 * may for off, may in found)
@@ -216,7 +216,7 @@ def test_a_guard_that_is_known_exactly_is_seen(monkeypatch: Patch) -> None:
 def test_what_is_left_of_one_event_is_left_of_the_next() -> None:
     """An elastic ball bounces as late as all of its bounces before: the errors add up."""
     disk = BouncingDisk(m=1.0, R=0.25, e=1.0, y0=0.75)
-    few, many = (untimed(disk, follow(disk, np.linspace(0.0, t, SAMPLES))) for t in (0.5, 5.0))
+    few, many = (time_bound(disk, follow(disk, np.linspace(0.0, t, SAMPLES))) for t in (0.5, 5.0))
     known = disk.closed_events(5.0)
     assert known is not None
     assert many > len(known) / 2 * few > 0.0
@@ -224,7 +224,7 @@ def test_what_is_left_of_one_event_is_left_of_the_next() -> None:
 
 @pytest.mark.slow
 def test_what_a_guard_leaves_open_is_stated(monkeypatch: Patch) -> None:
-    monkeypatch.setattr(certify, "untimed", lambda system, followed: 1e-6)
+    monkeypatch.setattr(certify, "time_bound", lambda system, followed: 1e-6)
     checks = {check.name: check for check in certified(scenes.SHIPPED["landing"])}
     assert checks["error of lands.time"].certified == 1e-6
 
@@ -277,7 +277,7 @@ def test_the_time_of_a_passage_is_off_by_no_more_than_is_stated(kind: str, depth
 @pytest.mark.mutant("the slope of a quantity left out of what is stated of its passage: a {kind}")
 @pytest.mark.parametrize("kind", ["throw", "swing"])
 def test_a_passage_without_its_slope_is_seen(kind: str, monkeypatch: Patch) -> None:
-    monkeypatch.setattr(errors, "unread", lambda *_: 0.0)
+    monkeypatch.setattr(errors, "lateness", lambda *_: 0.0)
     with mpmath.workdps(40):  # of which one, rounding decides
         each = (passed(*passing(kind, 1e-7, seed)) for seed in range(1, 9))
         assert any(off > may for off, may in each)

@@ -132,9 +132,9 @@ def first(share: float) -> Plant:
 
 def second(share: float) -> Plant:
     """In the second integrator: it follows a motion that is so much faster."""
-    other = certify._other
+    other = certify._other_method
     faster = lambda mode, f, n: other(mode, lambda t, y: (1 + share) * f(t, y), n)  # noqa: E731
-    return patched(certify, "_other", faster)
+    return patched(certify, "_other_method", faster)
 
 
 def delayed(*given: Any, **named: Any) -> Followed:
@@ -144,7 +144,7 @@ def delayed(*given: Any, **named: Any) -> Followed:
     return replace(followed, changes=changes)
 
 
-SECOND = certify._second
+SECOND = certify._second_solution
 
 
 def lost(*given: Any, **named: Any) -> tuple[str, Followed]:
@@ -379,7 +379,7 @@ PLANTED: dict[str, tuple[Case, Plant, set[str]]] = {
     ),
     "a generated block that never stops": (BRAKING, NO_GUARDS, {OTHER}),
     "events lost by the second integrator": (
-        BRAKING, patched(certify, "_second", lost), {IMPLICIT},
+        BRAKING, patched(certify, "_second_solution", lost), {IMPLICIT},
     ),
     "a stop at −1e-6 m/s, not at zero": (BRAKING, late, {OTHER, KNOWN}),
     "a mode that is never possible": (

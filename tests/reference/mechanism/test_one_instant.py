@@ -301,7 +301,7 @@ def test_a_stop_that_touches_is_struck_at_the_same_instant(
     mistake = refused(case)
     assert mistake.where == "scene.forces.e"
     assert "e.low strikes at t = 0.2349 s what f.low touches and passes on" in mistake.what
-    monkeypatch.setattr(unilateral, "_between", lambda a, b: False)
+    monkeypatch.setattr(unilateral, "_both_bodies", lambda a, b: False)
     monkeypatch.setattr(landing, "_touches", lambda *given: False)
     rates = {"0.0": 0.214687, "-1.0e-12": 0.3, "-1.0e-6": 0.3}
     assert solve(case).trajectory.states["a"][-1, 5] == pytest.approx(rates[press], abs=1e-5)

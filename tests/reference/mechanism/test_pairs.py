@@ -19,7 +19,7 @@ from textmech.reference.mechanism.kinematics.coordinates import Coordinates
 from textmech.reference.mechanism.kinematics.kinematics import Row
 from textmech.reference.mechanism.modes import unilateral as generated
 from textmech.reference.mechanism.modes.mechanism import BadStart
-from textmech.reference.mechanism.modes.unilateral import along
+from textmech.reference.mechanism.modes.unilateral import pair_tangent
 from textmech.reference.motion.follow import follow
 from textmech.reference.solve import solve
 
@@ -255,7 +255,7 @@ def test_the_blow_is_coulombs(mu: float, spin: float, held: bool) -> None:
 
 def one_lever(pair: Pair, where: Coordinates) -> Constraint:
     """The mutant: the other rim's turn is counted the other way."""
-    slip = along(pair, where)
+    slip = pair_tangent(pair, where)
     around, own, other = slip.rows[0]
     assert isinstance(other, Turning)
     return replace(slip, rows=((around, own, Turning(other.p, -other.axis)),))
@@ -266,7 +266,7 @@ def test_a_wrong_lever_of_the_blow_is_seen(monkeypatch: pytest.MonkeyPatch) -> N
     case, (_, velocities, spins, _) = oblique(0.9, 6.0), blow_by_hand(0.9, 6.0)
     known = np.column_stack([velocities, spins]).ravel()
     right = follow(scenes.mechanism(case), case.times).y[-1, 6:]
-    monkeypatch.setattr(generated, "along", one_lever)
+    monkeypatch.setattr(generated, "pair_tangent", one_lever)
     wrong = follow(scenes.mechanism(case), case.times).y[-1, 6:]
     assert np.abs(right - known).max() < 1e-11
     assert np.abs(wrong - known).max() > 0.1

@@ -124,7 +124,7 @@ def test_a_dip_between_the_points_is_found(a: float, b: float, monkeypatch: Patc
     assert zero(dips(a, b)) == pytest.approx(a, abs=4e-15)
     if a > 0.5:
         assert zero(lambda t: (t - 0.1) * dips(a, b)(t), spent=True) == pytest.approx(a, abs=4e-15)
-    monkeypatch.setattr(event_location, "_near", lambda *given: None)
+    monkeypatch.setattr(event_location, "_bracket", lambda *given: None)
     assert zero(dips(a, b)) is None
 
 

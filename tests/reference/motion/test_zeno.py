@@ -149,7 +149,7 @@ def test_distances_that_stay_pile_up_nowhere() -> None:
 def test_what_is_left_of_a_pile_is_the_geometric_sum(ratio: float) -> None:
     """d r + d r² + … = d r / (1 − r) after the last of instants whose distances are d rᵏ."""
     instants = np.cumsum([0.0, *(0.3 * ratio ** np.arange(6))])
-    assert instants[-1] + module.left(instants) == pytest.approx(0.3 / (1.0 - ratio), rel=1e-12)
+    assert instants[-1] + module.to_limit(instants) == pytest.approx(0.3 / (1.0 - ratio), rel=1e-12)
 
 
 STRUCK = """\
@@ -202,7 +202,7 @@ def test_two_blows_soon_after_each_other_end_no_motion(height: float, duration: 
 @pytest.mark.mutant("two blows soon after each other taken for the end of all bounces")
 @pytest.mark.slow
 def test_the_end_of_bounces_that_fly_on_is_seen(monkeypatch: Patch) -> None:
-    monkeypatch.setattr(event, "gone", lambda *_: True)
+    monkeypatch.setattr(event, "converged", lambda *_: True)
     with pytest.raises(AssertionError):
         test_two_blows_soon_after_each_other_end_no_motion(5.12743, 1.2)
 

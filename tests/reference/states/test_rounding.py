@@ -170,6 +170,6 @@ def test_a_chain_does_not_pass_over_a_far_centre(tmp_path: Path) -> None:
 def test_what_is_said_by_a_size_alone_would_be_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(answer, "_rounded", lambda case: {})
+    monkeypatch.setattr(answer, "_rounding_answers", lambda case: {})
     case = claim(tmp_path, ARMS, 0)
     assert max(off(case, solve(case))) > 3.0

@@ -422,7 +422,7 @@ def test_a_pile_ends_no_better_known_than_what_it_leaves_out(
     finer = dropped(3.0, "stays.time", most=1e-5)
     with pytest.raises(CaseError, match="asks more than can be certified"):
         solve(finer)
-    monkeypatch.setattr(errors, "_piled", lambda endless: 0.0)
+    monkeypatch.setattr(errors, "_pile_limit", lambda endless: 0.0)
     assert solve(finer).holds
 
 

@@ -291,7 +291,7 @@ def test_a_reference_that_is_lost_is_a_mistake_of_its_case(
     new: Path, words: Sequence[str], moved: Any, what: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(limit.MEMORY, "1")  # GiB
-    monkeypatch.setattr(solving, "_moved", moved)
+    monkeypatch.setattr(solving, "_solve_islands", moved)
     done = textmech(*words, new)
     assert done.returncode == 2, done.stdout
     assert f"{new}" in done.stderr

@@ -194,7 +194,7 @@ def test_in_any_attitude_rounding_makes_no_rank() -> None:
     q, v = placed(found, {"b": (0.0, 0.0, 0.0, *(e / np.linalg.norm(e)))})
     leeway = found.leeway(0.0, q, v)
     (way,) = leeway.ways
-    force = np.array([way[f"h.{x}"] - leeway.one[f"h.{x}"] for x in ("fx", "fy", "fz")])
+    force = np.array([way[f"h.{x}"] - leeway.forces[f"h.{x}"] for x in ("fx", "fy", "fz")])
     line = Rotation.from_quat(e, scalar_first=True).as_matrix()[:, 0]
     np.testing.assert_allclose(np.cross(force, line), 0.0, atol=ROUNDED)
 
