@@ -51,31 +51,31 @@ def load_document(
         raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document)
     mistakes = [*misnamed(path), *document.mistakes, *mistakes, *_hidden(document, variants)]
-    found: dict[str, list[Mistake]] = {}
+    by_variant: dict[str, list[Mistake]] = {}
     cases: list[Case] = []
     for variant, (data, source) in variants.items():
         parsed = parse(data)
         scene = resolve_scene(parsed.file)
         checked = check(parsed, scene, data=document.data, systems=systems, known=engines)
         findings = [*parsed.findings, *checked, *(() if long else work(parsed.file, scene))]
-        found[variant] = [
+        by_variant[variant] = [
             source.mistake(where, what)
             for where, what in findings
             if what != NO_VALUE  # the document has said so
         ]
         cases.append(resolve_case(case_name(path, variant), parsed.file, scene, source, long=long))
-    mistakes += told_once(found)
+    mistakes += told_once(by_variant)
     if mistakes:
         raise CaseError(mistakes)
     return cases
 
 
-def told_once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
+def told_once(by_variant: Mapping[str, list[Mistake]]) -> list[Mistake]:
     """Mistakes of all variants: one that all share once, any other with its variant's name."""
-    shared = set.intersection(*(set(mistakes) for mistakes in found.values()))
+    shared = set.intersection(*(set(mistakes) for mistakes in by_variant.values()))
     return [
         m if m in shared else replace(m, what=f"{m.what} (variant {variant!r})")
-        for variant, mistakes in found.items()
+        for variant, mistakes in by_variant.items()
         for m in mistakes
     ]
 

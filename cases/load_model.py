@@ -57,8 +57,8 @@ def _case(name: str, data: Mapping[str, Any], source: Source) -> ModelCase:
     try:
         file = ModelFile.model_validate(data, context=NONE)
     except ValidationError as error:
-        told = [(_path(e["loc"]), e["msg"]) for e in error.errors(include_url=False)]
-        mistakes = [source.mistake(path, what) for path, what in told if what != NO_VALUE]
+        errors = [(_path(e["loc"]), e["msg"]) for e in error.errors(include_url=False)]
+        mistakes = [source.mistake(path, what) for path, what in errors if what != NO_VALUE]
         raise CaseError(mistakes) from None
     control = file.control
     start = file.initial

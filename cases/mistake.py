@@ -60,8 +60,8 @@ class CaseError(Exception):
 
 
 def _lines(mistakes: Sequence[Mistake]) -> Iterator[str]:
-    for file, found in groupby(mistakes, key=lambda mistake: mistake.file):
-        all_ = [*found]
+    for file, group in groupby(mistakes, key=lambda mistake: mistake.file):
+        all_ = [*group]
         yield from map(str, all_[:SHOWN])
         if len(all_) > SHOWN:
             yield f"{plain(file)}: and {len(all_) - SHOWN} more"

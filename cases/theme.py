@@ -28,7 +28,7 @@ def themes(case: Case) -> tuple[str, ...]:
     scene = case.scene
     words = {force.word for force in scene.forces.values()}
     contacts = scene.contacts.values()
-    found = {
+    applies = {
         "loops": _loops(scene),
         "springs": bool(words & ELASTIC),
         "rolling": bool(scene.constraints) or any(c.ideal == "rolling" for c in contacts),
@@ -39,7 +39,7 @@ def themes(case: Case) -> tuple[str, ...]:
         "space": scene.frame.dimension == 3,
         "states": case.states is not None,
     }
-    chosen = tuple(name for name in THEMES if found.get(name))
+    chosen = tuple(name for name in THEMES if applies.get(name))
     return (
         chosen
         if set(chosen) - {"driven", "space"}

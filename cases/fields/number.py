@@ -141,19 +141,19 @@ def _computed(formula: str, known: Names) -> str:
     x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
     if of_two is None or x is None or y is None or (of_two[2] == "/" and not y):
         return "the number"
-    found = _OPERATORS[of_two[2]](x, y)
-    if not math.isfinite(found):
+    result = _OPERATORS[of_two[2]](x, y)
+    if not math.isfinite(result):
         return "the number"
-    angle = f", or {math.degrees(found):g} deg" if "pi" in of_two.group(1, 3) else ""
-    return f"{found:.10g}{angle}"
+    angle = f", or {math.degrees(result):g} deg" if "pi" in of_two.group(1, 3) else ""
+    return f"{result:.10g}{angle}"
 
 
 def _operand(word: str, known: Names) -> float | None:
     """The value of a number, a parameter or pi; None of a parameter that is itself mistaken."""
     if not (words := _words(word)):
         return float(word)
-    found = Amount(math.pi) if words == ["pi"] else known.amounts[words[0]]
-    return None if found is None else -found.value if word.startswith("-") else found.value
+    operand = Amount(math.pi) if words == ["pi"] else known.amounts[words[0]]
+    return None if operand is None else -operand.value if word.startswith("-") else operand.value
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
@@ -166,38 +166,38 @@ def number(value: object, unit: str | None, known: Names) -> Amount | None:
         raise NumberMistake(f"should be a number, is {shown(value)}")
     if name not in known.amounts:
         raise NumberMistake(f"unknown parameter {name!r}{nearest(name, known.amounts)}")
-    found = known.amounts[name]
-    if found is None:
+    parameter = known.amounts[name]
+    if parameter is None:
         return None
     sign = -1.0 if value.startswith("-") else 1.0
-    as_typed = found.text or f"{found.value:g}"
+    as_typed = parameter.text or f"{parameter.value:g}"
     if sign < 0.0:
         as_typed = as_typed[1:] if as_typed.startswith("-") else f"-{as_typed}"
     text = f"{value} = {as_typed}"
-    return turned(fitting(Amount(sign * found.value, found.dimension, text), unit), unit)
+    return turned(fitting(Amount(sign * parameter.value, parameter.dimension, text), unit), unit)
 
 
-def turned(found: Amount, unit: str | None) -> Amount:
+def turned(given: Amount, unit: str | None) -> Amount:
     """The amount; of an angle above one turn it is asked whether it is one in degrees."""
-    if unit == "rad" and found.dimension is None and abs(found.value) > TURN:
+    if unit == "rad" and given.dimension is None and abs(given.value) > TURN:
         raise NumberMistake(
-            f"is {found.text or f'{found.value:g}'} rad, which is {found.value / TURN:.2g} turns: "
-            f"write {found.value:g} deg, or {found.value:g} rad"
+            f"is {given.text or f'{given.value:g}'} rad, which is {given.value / TURN:.2g} turns: "
+            f"write {given.value:g} deg, or {given.value:g} rad"
         )
-    return found
+    return given
 
 
-def fitting(found: Amount, unit: str | None) -> Amount:
+def fitting(given: Amount, unit: str | None) -> Amount:
     """The amount, if it can be measured in `unit` (None: in anything)."""
-    if unit is None or found.dimension is None or found.dimension == _dimension(unit):
-        return found
-    if found.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
-        return found
+    if unit is None or given.dimension is None or given.dimension == _dimension(unit):
+        return given
+    if given.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
+        return given
     wanted = "a plain number" if unit == "1" else unit
     turns = "[angle]" in _dimension(unit) or unit == "1"
-    counts = turns and "[frequency]" in found.dimension
+    counts = turns and "[frequency]" in given.dimension
     hint = "; Hz may count turns or radians: write rpm or rad/s" if counts else ""
-    raise NumberMistake(f"is {found.text!r}, but {wanted} was expected{hint}")
+    raise NumberMistake(f"is {given.text!r}, but {wanted} was expected{hint}")
 
 
 def per_second(unit: str, times: int) -> str:
@@ -218,12 +218,12 @@ def _measured(value: float, unit: str, text: str) -> Amount:
     return Amount(size, str(converted.dimensionality), text)
 
 
-def _sized(value: float, said: object) -> float:
+def _sized(value: float, text: object) -> float:
     """The value, if it can be computed with."""
     if not math.isfinite(value):
-        raise NumberMistake(f"must be finite, is {said}")
+        raise NumberMistake(f"must be finite, is {text}")
     if value and not SMALLEST <= abs(value) <= LARGEST:
-        raise NumberMistake(f"must be 0 or from {SMALLEST:g} to {LARGEST:g} in SI, is {said}")
+        raise NumberMistake(f"must be 0 or from {SMALLEST:g} to {LARGEST:g} in SI, is {text}")
     return value
 
 
@@ -243,9 +243,9 @@ def _quantity(value: float, unit: str) -> Any:
         return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
     except (AttributeError, ValueError):  # pint's UndefinedUnitError, and its word for `nan`
         words = re.findall(r"[A-Za-zµμ°]+", unit)
-        apart = _apart(words[0]) if len(words) == 1 else ()
+        units = _apart(words[0]) if len(words) == 1 else ()
         # grams come first: kgg is a slip
-        hint = f"; did you mean {' '.join(apart)!r}?" if apart and "g" not in apart[1:] else ""
+        hint = f"; did you mean {' '.join(units)!r}?" if units and "g" not in units[1:] else ""
         hint = hint or (nearest(words[0], _KNOWN) if len(words) == 1 else "")
         raise NumberMistake(f"unknown unit {unit!r}{hint}") from None
 

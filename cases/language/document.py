@@ -59,8 +59,8 @@ def _parsed(file: str, text: str) -> Document:
     except ReaderError as error:
         line, column = _end(text[: error.position])
         what = f"the character {plain(text[error.position])} cannot stand in YAML"
-        shown = lines[line - 1] if line <= len(lines) else ""
-        raise CaseError([Mistake(file, line, column, "", what, shown)]) from None
+        source_line = lines[line - 1] if line <= len(lines) else ""
+        raise CaseError([Mistake(file, line, column, "", what, source_line)]) from None
     except YAMLError as error:
         raise CaseError([tree.unreadable(error)]) from None
     except (ValueError, OverflowError) as error:  # ruamel on an escape such as "\U99999999"
@@ -80,11 +80,11 @@ def _unclear(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
 
 def _only(text: str, keys: Collection[str]) -> str:
     """Nothing stands on the lines of other keys: places stay what they are."""
-    kept, parts = True, BREAK.split(text)
+    keep, parts = True, BREAK.split(text)
     for k in range(0, len(parts), 2):
         if parts[k][:1].strip(" \t#"):
-            kept = parts[k].partition(":")[0] in keys
-        parts[k] = parts[k] if kept else ""
+            keep = parts[k].partition(":")[0] in keys
+        parts[k] = parts[k] if keep else ""
     return "".join(parts)
 
 
@@ -225,9 +225,9 @@ class Tree:
                 first = self.places[place][0]
                 what = f"duplicate key {key!r}, already on line {first}"
                 self.mistakes.append(self.at(event.start_mark, place, what))
-                said = len(self.mistakes)
+                count = len(self.mistakes)
                 self.node(next(events), events, (*path, f"{key} (again)"))
-                del self.mistakes[said:]  # it has to go as a whole
+                del self.mistakes[count:]  # it has to go as a whole
                 continue
             self.places[place] = (event.start_mark.line + 1, event.start_mark.column + 1)
             data[key] = self.node(next(events), events, place)

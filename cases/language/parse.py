@@ -88,14 +88,14 @@ def parse(data: Mapping[str, Any]) -> Parsed:
             return Parsed(file, tuple(findings), frozenset(broken))
         except ValidationError as error:
             first = not broken
-            for found in error.errors(include_url=False):
-                path = _path(found["loc"])
-                what = found["msg"]
+            for detail in error.errors(include_url=False):
+                path = _path(detail["loc"])
+                what = detail["msg"]
                 if deep := _too_deep(path, data):
                     path, what = deep
                     broken.add(path[-1:])  # what it holds may be meant elsewhere
                 # Of a parameter it is known already: what names it is as a wrong number is here.
-                if first and found.get("ctx", {}).get("number") and path[0] != "parameters":
+                if first and detail.get("ctx", {}).get("number") and path[0] != "parameters":
                     rest, there = _without_number(rest, path)
                     if there:
                         findings.append((path, what))

@@ -140,28 +140,28 @@ def _turned(
         for joint in scene.joints.values()
         if [joint.name, "angle"] in marks or not _turns_alike(joint, starts, scene)
     ]
-    held = {at.body for joint in joints for at in joint.refers()}
-    held |= {part for part, field in marks if field == "angle" or "." in field}  # of a point
-    marked = (
+    oriented = {at.body for joint in joints for at in joint.refers()}
+    oriented |= {part for part, field in marks if field == "angle" or "." in field}  # of a point
+    elements = (
         *scene.constraints.values(),
         *scene.forces.values(),
         *scene.contacts.values(),
         *scene.joints.values(),
     )
-    held |= {at.body for one in marked for at in one.refers() if at.point != CENTER}
-    held |= {one.at.body for one in scene.constraints.values()}
-    axed = (force for force in scene.forces.values() if getattr(force, "along", None))
-    held |= {at.body for force in axed for at in force.refers()}
+    oriented |= {at.body for element in elements for at in element.refers() if at.point != CENTER}
+    oriented |= {element.at.body for element in scene.constraints.values()}
+    directed = (force for force in scene.forces.values() if getattr(force, "along", None))
+    oriented |= {at.body for force in directed for at in force.refers()}
     shape = "sphere" if in_space else "disk"  # each looks alike however it is turned
-    free = (b.name for b in scene.bodies.values() if b.shape == shape and b.name not in held)
-    found = dict(starts)
+    free = (b.name for b in scene.bodies.values() if b.shape == shape and b.name not in oriented)
+    placements = dict(starts)
     for name in free:
         place = starts.get(name, Placement())
         if in_space and place.attitude is None and not place.points:
-            found[name] = replace(place, attitude=UPRIGHT)
+            placements[name] = replace(place, attitude=UPRIGHT)
         elif not (in_space or "angle" in place.given or place.points or place.on):
-            found[name] = replace(place, given={**place.given, "angle": 0.0})
-    return found
+            placements[name] = replace(place, given={**place.given, "angle": 0.0})
+    return placements
 
 
 def _turns_alike(joint: Joint, starts: Mapping[str, Placement], scene: Scene) -> bool:
@@ -173,9 +173,9 @@ def _turns_alike(joint: Joint, starts: Mapping[str, Placement], scene: Scene) ->
     given = starts.get(joint.name, Placement())
     winds = any(force.winds for force in scene.forces.values() if force.about == joint.name)
     driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
-    said = given.attitude is not None or any(turn.name in given.given for turn in joint.turns)
+    has_start = given.attitude is not None or any(turn.name in given.given for turn in joint.turns)
     turning = {"turn"} if scene.frame is PLANE else {"ball"}
-    return turning <= kinds <= {*turning, "swing"} and not (said or winds or driven)
+    return turning <= kinds <= {*turning, "swing"} and not (has_start or winds or driven)
 
 
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:

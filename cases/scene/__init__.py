@@ -114,12 +114,12 @@ class Scene:
 
     def driven(self) -> Mapping[str, Fields]:
         """By joint, what prescribed rates exert: `hinge` → `torque`."""
-        found: dict[str, Fields] = {}
+        efforts: dict[str, Fields] = {}
         for quantity in self.drives:
             part, _, rate = quantity.rpartition(".")
             if part in self.joints and (freedom := self.joints[part].rates.get(rate)):
-                found[part] = {**found.get(part, {}), **freedom.exerted}
-        return found
+                efforts[part] = {**efforts.get(part, {}), **freedom.exerted}
+        return efforts
 
     def working(self) -> Mapping[str, Fields]:
         """The field `work` of each part with a power: forces, and joints with prescribed rates."""
@@ -134,19 +134,19 @@ class Scene:
         """The reactions of a producer from which one follows: in space `q1.force` from three."""
         part, _, field = reaction.rpartition(".")
         if part in self.forces:
-            told = self.forces[part].given.get(field, (field,))
+            components = self.forces[part].given.get(field, (field,))
         elif field in WORK and part in self.joints:
-            told = tuple(self.driven()[part])
+            components = tuple(self.driven()[part])
         elif element := self.joints.get(part) or self.contacts.get(part):
-            told = element.components(field)
+            components = element.components(field)
         else:
-            told = (field,)
-        return tuple(f"{part}.{name}" for name in told)
+            components = (field,)
+        return tuple(f"{part}.{name}" for name in components)
 
     @property
     def touching(self) -> dict[str, Contact]:
         """One contact for every point that may touch the floor: of spokes, `feet.tip0` and on."""
-        return {one.name: one for contact in self.contacts.values() for one in contact.each()}
+        return {point.name: point for contact in self.contacts.values() for point in contact.each()}
 
     @property
     def pressed(self) -> tuple[str, ...]:
@@ -155,8 +155,8 @@ class Scene:
 
     def elements(self) -> Iterator[Body | Joint | Edge | Contact | Pair | Force]:
         """Yields each part that has a name, quantities and numbers."""
-        held = (self.bodies, self.joints, self.constraints)
-        for section in (*held, self.contacts, self.pairs, self.forces):
+        linked = (self.bodies, self.joints, self.constraints)
+        for section in (*linked, self.contacts, self.pairs, self.forces):
             yield from section.values()
 
     def springs(self) -> Iterator[Spring]:
@@ -221,10 +221,10 @@ def once(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
     name = f"{make.__module__}.{make.__qualname__}"
 
     @wraps(make)
-    def known(scene: Scene) -> Made:
-        kept = vars(scene)  # as functools.cached_property does
-        if name not in kept:
-            kept[name] = make(scene)
-        return kept[name]
+    def cached(scene: Scene) -> Made:
+        cache = vars(scene)  # as functools.cached_property does
+        if name not in cache:
+            cache[name] = make(scene)
+        return cache[name]
 
-    return known
+    return cached

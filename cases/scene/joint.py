@@ -202,8 +202,8 @@ class Joint:
         turns = self.frame is SPACE or all(
             bodies[at.body].turns for at in self.refers() if at.body in bodies
         )
-        left = (f.coordinate for f in self.named if turns or f.kind != "turn")
-        return {name: of for fields in left for name, of in fields.items()}
+        coordinates = (f.coordinate for f in self.named if turns or f.kind != "turn")
+        return {name: of for fields in coordinates for name, of in fields.items()}
 
     def quantities(self) -> dict[str, Fields]:
         """Its reactions and its gap; slip and friction where there is dry friction."""
@@ -269,7 +269,7 @@ class Joint:
         if self.frame is PLANE:
             ways = {"turn": self._angle, "shift": self._shift}
             each = [ways[f.kind](motion) if f.kind in ways else (none, none) for f in self.freedoms]
-            both = [np.reshape(one, (-1, len(d))).T for one in zip(*each, strict=True)]
+            both = [np.reshape(values, (-1, len(d))).T for values in zip(*each, strict=True)]
             return both[0], both[1]
         first = axes_of(motion, self.a.body)
         shifts = shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
@@ -282,9 +282,9 @@ class Joint:
         """Its turns in space by themselves, of which none is a ball's."""
         first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
         ways = turned_by([f.axis for f in self.turns], *first, *second)
-        told = motion.trajectory.near.get(self.name)
-        if told is not None:
-            return nearest(ways, told)
+        expected = motion.trajectory.near.get(self.name)
+        if expected is not None:
+            return nearest(ways, expected)
         return counted(ways, motion.trajectory.times, self.begun)
 
     def _angle(self, motion: Motion) -> tuple[Array, Array]:
@@ -346,8 +346,8 @@ def planar_joint(
     length: Annotated[float, In("m", above=0)] | None = None,
 ) -> Joint:
     """A joint between a point of one part and a point of another; it leaves the kind's freedoms."""
-    left = [replace(f, axis=along) if f.kind == "shift" else f for f in FREEDOMS[kind]]
-    return Joint(name, kind, a, b, tuple(left), angle, dry_friction, length)
+    freedoms = [replace(f, axis=along) if f.kind == "shift" else f for f in FREEDOMS[kind]]
+    return Joint(name, kind, a, b, tuple(freedoms), angle, dry_friction, length)
 
 
 def axes_of(motion: Motion, body: str) -> tuple[Array, Array]:

@@ -20,14 +20,14 @@ def done(
     motion: Trajectory, corners: Iterable[float], power: Callable[[Trajectory], Array]
 ) -> Array:
     """(N,) work [J] since the first sample, of a power [W] that is told at any rows of a motion."""
-    found, before = [np.zeros(0)], 0.0
+    work, before = [np.zeros(0)], 0.0
     for piece in pieces(motion, corners):
         own = motion.times[piece.own]
         marks = np.unique([piece.begin, *own.clip(piece.begin, piece.end), piece.end])
         sums = before + np.cumsum([0.0, *areas(piece.motion.times, power(piece.motion), marks)])
-        found.append(sums[np.searchsorted(marks, own.clip(piece.begin, piece.end))])
+        work.append(sums[np.searchsorted(marks, own.clip(piece.begin, piece.end))])
         before = float(sums[-1])
-    return np.concatenate(found)
+    return np.concatenate(work)
 
 
 def areas(times: Array, values: Array, marks: Array) -> list[float]:
@@ -109,21 +109,21 @@ def _instants(times: Array, corners: Iterable[float]) -> list[tuple[float, float
 
     Two laws may write one instant in two ways, as 0.3 and 0.1 + 0.2.
     """
-    found = list[tuple[float, float]]()
+    instants = list[tuple[float, float]]()
     for t in sorted({*corners}):
         if not times[0] < t <= times[-1]:
             continue
-        if found and t - found[-1][1] <= ROUNDED * (times[-1] - times[0]):
-            found[-1] = found[-1][0], t
+        if instants and t - instants[-1][1] <= ROUNDED * (times[-1] - times[0]):
+            instants[-1] = instants[-1][0], t
         else:
-            found.append((t, t))
-    return found
+            instants.append((t, t))
+    return instants
 
 
 def _apart(times: Array, corner: float, part: slice, length: float) -> bool:
     """Whether a corner of a part is not near its samples, so that it tells more than they do."""
-    one, other = times[_within(times, corner)]
-    return bool(np.all(np.abs(times[part] - corner) >= NEAR * min(other - one, length)))
+    before, after = times[_within(times, corner)]
+    return bool(np.all(np.abs(times[part] - corner) >= NEAR * min(after - before, length)))
 
 
 def _at(motion: Trajectory, t: float, beside: tuple[slice, slice], part: slice) -> Trajectory:
@@ -168,11 +168,11 @@ def _within(times: Array, t: float) -> Any:
 
 def _read(times: Array, values: Array, rows: Any, t: float) -> Array:
     """(1, …) the value at t of the polynomial through these rows, by Lagrange."""
-    at, found = times[rows], 0.0 * values[:1]
+    nodes, value = times[rows], 0.0 * values[:1]
     for i, row in enumerate(rows):
-        others = np.delete(at, i)
-        found = found + values[row] * np.prod((t - others) / (at[i] - others))
-    return found
+        others = np.delete(nodes, i)
+        value = value + values[row] * np.prod((t - others) / (nodes[i] - others))
+    return value
 
 
 def _rows(motion: Trajectory, part: slice, begin: float) -> Trajectory:

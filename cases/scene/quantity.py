@@ -86,8 +86,8 @@ def at_event(name: str, events: Container[str]) -> AtEvent | None:
 
 def told_by(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
     """The quantities that the events are of, and those that are bounded at events."""
-    found = [event.quantity for event in events.values()]
-    return found + [at.quantity for name in bounded if (at := at_event(name, events))]
+    names = [event.quantity for event in events.values()]
+    return names + [at.quantity for name in bounded if (at := at_event(name, events))]
 
 
 def at_events(events: Iterable[str], known: Mapping[str, Quantity]) -> dict[str, Quantity]:
@@ -95,16 +95,16 @@ def at_events(events: Iterable[str], known: Mapping[str, Quantity]) -> dict[str,
     return {
         quantity.name: quantity
         for event in events
-        for one in known.values()
-        if one.field not in NOT_AT_EVENTS
-        for quantity in _sides(event, one)
+        for base in known.values()
+        if base.field not in NOT_AT_EVENTS
+        for quantity in _sides(event, base)
     }
 
 
-def _sides(event: str, one: Quantity) -> Iterator[Quantity]:
+def _sides(event: str, base: Quantity) -> Iterator[Quantity]:
     for side in SIDES:
-        field = ".".join((one.name, side)) if side else one.name
-        yield Quantity(f"{event}.{field}", event, field, one.unit, one.kind)
+        field = ".".join((base.name, side)) if side else base.name
+        yield Quantity(f"{event}.{field}", event, field, base.unit, base.kind)
 
 
 def _named(parts: Mapping[str, Fields]) -> dict[str, Quantity]:

@@ -117,5 +117,5 @@ def _turning(scene: Scene) -> Fields:
     spatial = scene.frame.dimension == 3
     alpha = [f"alpha_{axis}" for axis in "xyz"] if spatial else []
     ends = ("_11", "_22", "_33", "_12", "_13", "_23") if spatial else ("",)
-    found: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
-    return found | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))
+    fields: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
+    return fields | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))

@@ -65,9 +65,9 @@ def _armatures(case: ModelCase, own: OwnModel, joints: Sequence[int]) -> Iterato
 
 def _gains(case: ModelCase, own: OwnModel, joints: Sequence[int]) -> Iterator[Changed]:
     m = own.model
-    used = [i for joint in joints for i in _servos(m, joint)]
-    for part in GAINS if used else ():
-        less = {i: float(f"{-part * m.actuator_biasprm[i, 2]:.6g}") for i in used}
+    servos = [i for joint in joints for i in _servos(m, joint)]
+    for part in GAINS if servos else ():
+        less = {i: float(f"{-part * m.actuator_biasprm[i, 2]:.6g}") for i in servos}
         edits = [_Edit("actuator", i, kv) for i, kv in less.items()]
         lines = tuple(_gain(m, i, kv) for i, kv in less.items())
         words = f"kv {', '.join(f'{kv:g}' for kv in less.values())}"

@@ -176,8 +176,8 @@ def _beside(m: mujoco.MjModel) -> list[str]:
 
 def _used(table: Table) -> Table:
     """Returns the columns that hold anything."""
-    used = [k for k in range(len(table[0])) if any(row[k] for row in table[1:])]
-    return [[row[k] for k in used] for row in table]
+    columns = [k for k in range(len(table[0])) if any(row[k] for row in table[1:])]
+    return [[row[k] for k in columns] for row in table]
 
 
 def _range(ends: Array, limited: bool, unit: str = "") -> str:

@@ -26,15 +26,15 @@ def outlines(model: mujoco.MjModel) -> dict[str, list[Line]]:
 
     A body without any is drawn as the box of its inertia; one without mass, too, has no line.
     """
-    drawn: dict[str, list[Line]] = {}
+    drawing: dict[str, list[Line]] = {}
     for body in range(model.nbody):
         first = int(model.body_geomadr[body])
         geoms = range(first, first + int(model.body_geomnum[body]))
-        shown = [geom for geom in geoms if model.geom_group[geom] < SHOWN] or geoms
-        lines = [line for geom in shown for line in _geom(model, geom)]
+        visible = [geom for geom in geoms if model.geom_group[geom] < SHOWN] or geoms
+        lines = [line for geom in visible for line in _geom(model, geom)]
         if lines or body:
-            drawn[called(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines or _as_heavy(model, body)
-    return drawn
+            drawing[called(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines or _as_heavy(model, body)
+    return drawing
 
 
 def floors(model: mujoco.MjModel) -> list[Array]:
@@ -67,10 +67,10 @@ def between(own: OwnModel, times: Array, y: Array, parts: int) -> tuple[Array, A
         rates = by[k] / h[k]
         steps = s * s * (3 - 2 * s) * by[k]
         steps += h[k] * (s * (1 - s) ** 2 * v[k] - s * s * (1 - s) * v[k + 1])
-        turned = 6 * s * (1 - s) * rates + (1 - s) * (1 - 3 * s) * v[k] + s * (3 * s - 2) * v[k + 1]
-        reached = np.array([moved(m, q[k], step) for step in steps])
+        rate = 6 * s * (1 - s) * rates + (1 - s) * (1 - 3 * s) * v[k] + s * (3 * s - 2) * v[k + 1]
+        coordinates = np.array([moved(m, q[k], step) for step in steps])
         rest = y[k, m.nq + m.nv :] + s * (y[k + 1] - y[k])[m.nq + m.nv :]
-        rows.append(np.hstack([reached, turned, rest]))
+        rows.append(np.hstack([coordinates, rate, rest]))
         finer.append(times[k] + h[k] * s[:, 0])
     return np.concatenate(finer), np.concatenate(rows)
 
@@ -122,9 +122,9 @@ def _as_heavy(m: mujoco.MjModel, body: int) -> list[Line]:
     J = m.body_inertia[body]
     half = np.sqrt(np.maximum(1.5 * (J.sum() - 2 * J) / m.body_mass[body], 0.0))
     children = np.flatnonzero(m.body_parentid == body)
-    joined = np.linalg.norm([m.body_pos[body], m.body_ipos[body], *m.body_pos[children]], axis=1)
-    if joined.any():
-        half *= min(1.0, joined.max() / (np.linalg.norm(half) or 1.0))
+    distances = np.linalg.norm([m.body_pos[body], m.body_ipos[body], *m.body_pos[children]], axis=1)
+    if distances.any():
+        half *= min(1.0, distances.max() / (np.linalg.norm(half) or 1.0))
     return [m.body_ipos[body] + line @ _axes(m.body_iquat[body]).T for line in _cuboid(half)]
 
 

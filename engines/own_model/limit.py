@@ -74,8 +74,8 @@ def limit(
     fineness = _tight(PARTS)
     fine = equations.followed(times, fineness)
     while True:
-        off = np.abs(apart(own.model, coarse[:, : own.model.nq], fine[:, : own.model.nq]))
-        errors = np.maximum.accumulate(off.max(axis=1, initial=0.0))
+        differences = np.abs(apart(own.model, coarse[:, : own.model.nq], fine[:, : own.model.nq]))
+        errors = np.maximum.accumulate(differences.max(axis=1, initial=0.0))
         affordable = MOST_STEPS / max(own.model.nv, FEW) / max(equations.steps, 1)
         if errors[-1] <= within or not equations.steps or affordable < 2:
             break
@@ -122,8 +122,8 @@ def stepped_states(
     for name, value in options.items():
         setattr(model.opt, name, WORDS.get(name, {}).get(value, value))
     model.opt.timestep = h
-    begun = start or own.start()
-    data, controls = begun_as(model, begun), controls_of(own, begun)
+    origin = start or own.start()
+    data, controls = begun_as(model, origin), controls_of(own, origin)
     done, states = 0, list[Array]()
     for step in np.rint(times / h).astype(int):
         if controls.laws:

@@ -50,13 +50,13 @@ def opened(case: ModelCase) -> Opened:
         number = _number(model, OBJECT.mjOBJ_ACTUATOR, name, case, ("control", name), mistakes)
         if number is not None:
             laws[int(column(model, "actuator_ctrladr")[number])] = law
-    begun = _start(own, case, mistakes)
+    data = _start(own, case, mistakes)
     bars = dict(_bars(model, case, mistakes))
     if mistakes:
         raise CaseError(mistakes)
-    started = replace(own, laws=laws, begun=begun, begins=_begins(model, case.initial))
+    started = replace(own, laws=laws, begun=data, begins=_begins(model, case.initial))
     for number in laws:
-        begun.ctrl[number] = started.controls.at(0.0)[number]
+        data.ctrl[number] = started.controls.at(0.0)[number]
     return Opened(started, bars)
 
 
@@ -69,10 +69,10 @@ def _compiled(case: ModelCase) -> OwnModel:
         return compiled(case.path)
     except CaseError as error:
         if not case.source.lines:  # the model is what was named
-            named = [replace(mistake, file=case.file) for mistake in error.mistakes]
-            raise CaseError(named) from None
-        told = [case.mistake(("model",), str(mistake)) for mistake in error.mistakes]
-        raise CaseError(told) from None
+            mistakes = [replace(mistake, file=case.file) for mistake in error.mistakes]
+            raise CaseError(mistakes) from None
+        mistakes = [case.mistake(("model",), str(mistake)) for mistake in error.mistakes]
+        raise CaseError(mistakes) from None
 
 
 def _number(

@@ -109,33 +109,33 @@ class Motion:
         return self.y[:, : self.own.model.nq]
 
 
-def differences(asked: Sequence[Quantity], a: Motion, b: Motion) -> dict[Quantity, Array]:
+def differences(selection: Sequence[Quantity], a: Motion, b: Motion) -> dict[Quantity, Array]:
     """Returns by quantity (N, k) how two motions differ, in components; of a turn the angle."""
     by_joint = apart(a.own.model, a.q, b.q)
-    others = [quantity for quantity in asked if quantity.of != "joint"]
+    others = [quantity for quantity in selection if quantity.of != "joint"]
     ours, theirs = observed(others, a), observed(others, b)
-    found: dict[Quantity, Array] = {}
-    for quantity in asked:
+    by_quantity: dict[Quantity, Array] = {}
+    for quantity in selection:
         if quantity.of == "joint":
-            found[quantity] = by_joint[:, quantity.first : quantity.first + quantity.wide]
+            by_quantity[quantity] = by_joint[:, quantity.first : quantity.first + quantity.wide]
         elif quantity.of == "turn":
-            found[quantity] = _angles(ours[quantity], theirs[quantity])
+            by_quantity[quantity] = _angles(ours[quantity], theirs[quantity])
         else:
-            found[quantity] = theirs[quantity] - ours[quantity]
-    return found
+            by_quantity[quantity] = theirs[quantity] - ours[quantity]
+    return by_quantity
 
 
-def _angles(one: Array, other: Array) -> Array:
+def _angles(p: Array, q: Array) -> Array:
     """(N, 1) [rad]: the angles of the turns from attitudes (N, 4) to others."""
-    sign = np.sign(np.einsum("ij,ij->i", one, other))[:, None]
-    half = np.linalg.norm(one * sign - other, axis=1, keepdims=True) / 2
+    sign = np.sign(np.einsum("ij,ij->i", p, q))[:, None]
+    half = np.linalg.norm(p * sign - q, axis=1, keepdims=True) / 2
     return 4 * np.arcsin(np.minimum(half, 1.0))
 
 
-def observed(asked: Sequence[Quantity], motion: Motion) -> dict[Quantity, Array]:
+def observed(selection: Sequence[Quantity], motion: Motion) -> dict[Quantity, Array]:
     """Returns (N, k) by quantity, as MuJoCo computes it in the states."""
-    values: dict[Quantity, list[Array]] = {quantity: [] for quantity in asked}
-    if not asked:
+    values: dict[Quantity, list[Array]] = {quantity: [] for quantity in selection}
+    if not selection:
         return {}
     own, m = motion.own, copy.copy(motion.own.model)
     m.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY

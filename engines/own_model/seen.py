@@ -68,9 +68,9 @@ def shaking(own: OwnModel, times: Array, y: Array, bars: Array) -> dict[int, Sha
 def servos(own: OwnModel) -> dict[int, Motor]:
     """Returns by velocity the position servo that alone moves it, if it has one."""
     return {
-        int(moved[0]): motor
+        int(dofs[0]): motor
         for motor in own.tree.motors
-        if motor.bias[1] < 0 < motor.gain[0] and len(moved := np.flatnonzero(motor.moments)) == 1
+        if motor.bias[1] < 0 < motor.gain[0] and len(dofs := np.flatnonzero(motor.moments)) == 1
     }
 
 

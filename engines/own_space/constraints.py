@@ -128,9 +128,9 @@ def _slide(links: Links, c: SlideJoint, name: str, place: str) -> None:
 
 def _groove(links: Links, c: GrooveJoint, name: str, place: str) -> None:
     along = c.groove_b - c.groove_a
-    seen = along if links.part(c.a) else along.rotated(c.a.angle)
+    direction = along if links.part(c.a) else along.rotated(c.a.angle)
     pair = _ends(links, c, name, place, c.groove_a)
-    links.reading.joints[name] = {"slot": pair, "along": tuple(seen.normalized())}
+    links.reading.joints[name] = {"slot": pair, "along": tuple(direction.normalized())}
     links.turning.setdefault((links.part(c.a), links.part(c.b)), name)
     at = "comes to an end of its groove, at which nothing in a case file holds"
     links.reading.withins.append(Within(f"{name}.shift", 0.0, along.length, place, at))
@@ -197,14 +197,14 @@ def _gear(r: Reading, c: GearJoint, name: str, place: str, joint: str, s: float,
     """With the ratio 1 it holds b.angle − a.angle: the pin is a weld then, and the slot a slide."""
     if c.ratio != 1.0:
         r.refuse(place, f"has the ratio {c.ratio:g}, and only 1 has a word")
-    held = r.joints[joint]
-    if "angle" in held:
+    words = r.joints[joint]
+    if "angle" in words:
         r.refuse(place, SECOND)
-    if "pin" in held:
-        held["weld"] = held.pop("pin")
-    elif "slot" in held:
-        held["slide"] = held.pop("slot")
-    held["angle"] = f"{s * (c.phase - o)} rad"
+    if "pin" in words:
+        words["weld"] = words.pop("pin")
+    elif "slot" in words:
+        words["slide"] = words.pop("slot")
+    words["angle"] = f"{s * (c.phase - o)} rad"
 
 
 JOINTS: dict[type, Callable[..., None]] = {

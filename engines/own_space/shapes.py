@@ -66,7 +66,7 @@ class Touch:
 
 def outlines(reading: Reading) -> list[Outline]:
     """Returns the shapes that can collide; those that cannot be read are refused."""
-    found = list[Outline]()
+    readable = list[Outline]()
     for k, shape in enumerate(reading.space.shapes):
         place, body = f"space.shapes[{k}]: {type(shape).__name__}", shape.body
         if shape.sensor:
@@ -84,10 +84,10 @@ def outlines(reading: Reading) -> list[Outline]:
             corners = [body.local_to_world(corner) for corner in corners]
         else:
             corners = [corner - body.center_of_gravity for corner in corners]
-        found.append(
+        readable.append(
             Outline(place, f"shape{k}", shape, name, (*corners,), getattr(shape, "radius", 0.0))
         )
-    return found
+    return readable
 
 
 def _corners(shape: Shape) -> list[Vec2d]:
@@ -104,12 +104,12 @@ def colliding(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Out
 
     As `cpSpaceStep` asks: not of one body, nor of two whose filters or joints forbid it.
     """
-    apart = [{c.a, c.b} for c in space.constraints if not c.collide_bodies]
+    exempt = [{c.a, c.b} for c in space.constraints if not c.collide_bodies]
     return [
-        (one, other) if one.body else (other, one)
-        for one, other in combinations(known, 2)
-        if one.body != other.body and {one.shape.body, other.shape.body} not in apart
-        if _meet(one.shape.filter, other.shape.filter)
+        (first, second) if first.body else (second, first)
+        for first, second in combinations(known, 2)
+        if first.body != second.body and {first.shape.body, second.shape.body} not in exempt
+        if _meet(first.shape.filter, second.shape.filter)
     ]
 
 
@@ -127,20 +127,20 @@ def shaped(reading: Reading, known: Sequence[Outline]) -> Words:
 
 
 def _shaped(body: Body, own: list[Outline], points: Words) -> Words:
-    told = {"points": points} if points else {}
+    rest = {"points": points} if points else {}
     if not turns(body):
         return {"particle": {"mass": body.mass}}
     if radius := _rim(own):
         if _alike(body.moment, body.mass * radius**2 / 2):
-            return {"disk": {"mass": body.mass, "radius": radius}, **told}
-        return {"rigid": {"mass": body.mass, "inertia": body.moment, "radius": radius}, **told}
+            return {"disk": {"mass": body.mass, "radius": radius}, **rest}
+        return {"rigid": {"mass": body.mass, "inertia": body.moment, "radius": radius}, **rest}
     if size := _box(own, body):
-        return {"block": {"mass": body.mass, "width": size[0], "height": size[1]}, **told}
-    return {"rigid": {"mass": body.mass, "inertia": body.moment}, **told}
+        return {"block": {"mass": body.mass, "width": size[0], "height": size[1]}, **rest}
+    return {"rigid": {"mass": body.mass, "inertia": body.moment}, **rest}
 
 
-def _alike(one: float, other: float) -> bool:
-    return abs(one - other) <= ALIKE * abs(other)
+def _alike(a: float, b: float) -> bool:
+    return abs(a - b) <= ALIKE * abs(b)
 
 
 def _rim(own: list[Outline]) -> float:
@@ -161,14 +161,14 @@ def _box(own: list[Outline], body: Body) -> tuple[float, float] | None:
 
 
 def touches(
-    reading: Reading, known: Sequence[Outline], one: Outline, other: Outline
+    reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
     """Returns the contacts of the two, of which the first moves; None where there is no word."""
-    if other.body is None:
-        return _on_ground(reading, known, one, other)
-    both = [_on_body(reading, known, *pair) for pair in ((one, other), (other, one))]
-    found = [touch for touch in both if touch]
-    return max(found, key=_over, default=None)
+    if second.body is None:
+        return _on_ground(reading, known, first, second)
+    both = [_on_body(reading, known, *pair) for pair in ((first, second), (second, first))]
+    candidates = [touch for touch in both if touch]
+    return max(candidates, key=_over, default=None)
 
 
 def _on_body(
@@ -187,11 +187,11 @@ def _on_body(
         touched += f".{max(FACES, key=lambda face: turned.dot(FACES[face].normal))}"
     elif not (_rim(own) and len(words) == 1):
         return None
-    told = {
+    contacts = {
         f"{first.name}_on_{second.name}{end}": _words(first, second, word, touched)
         for word, end in words.items()
     }
-    return Touch(first, second, told, {}, side)
+    return Touch(first, second, contacts, {}, side)
 
 
 def _over(touch: Touch) -> bool:
@@ -225,13 +225,13 @@ def _touching(reading: Reading, known: Sequence[Outline], outline: Outline) -> d
     if outline.radius or any(_rim([other]) for other in own):
         return {}
     boxed = _box(own, body) is not None
-    found: dict[str, str] = {}
+    endings: dict[str, str] = {}
     for k, (x, y) in enumerate(outline.corners):
         point = CORNERS[2 * (y > 0) + (x > 0)] if boxed else f"{outline.name}_{k}"
         if not boxed:
             reading.own_points[name][point] = (x, y)
-        found[f"{name}.{point}"] = f"_{point}" if boxed else f"_{k}"
-    return found
+        endings[f"{name}.{point}"] = f"_{point}" if boxed else f"_{k}"
+    return endings
 
 
 def _on_ground(
@@ -249,12 +249,12 @@ def _on_ground(
         arms = [corner.rotated(body.angle).dot(side.normal) for corner in first.corners]
         at += (first.radius - min(arms)) * side.normal
         plane, words = f"{plane}_of_{first.name}", {str(first.body): ""}
-    told = {
+    contacts = {
         f"{named}_on_{second.name}{end}": _words(first, second, word, f"{GROUND}.{plane}")
         for word, end in words.items()
     }
     planes = {plane: {"at": tuple(at), "normal": tuple(side.normal)}}
-    return Touch(first, second, told, planes, side) if told else None
+    return Touch(first, second, contacts, planes, side) if contacts else None
 
 
 def _sides(outline: Outline) -> list[Side]:

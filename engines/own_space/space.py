@@ -52,12 +52,12 @@ class Read:
 
     def data(self) -> dict[str, Any]:
         """The data of a case file; it bounds the place of the first body, and nothing else."""
-        r, told = self.reading, [touch for pair in self.met if (touch := self.pairs[pair])]
-        contacts = dict(chain.from_iterable(touch.contacts.items() for touch in told))
+        r, met = self.reading, [touch for pair in self.met if (touch := self.pairs[pair])]
+        contacts = dict(chain.from_iterable(touch.contacts.items() for touch in met))
         scene = {
             "gravity": tuple(r.space.gravity),
             "points": r.points,
-            "planes": dict(chain.from_iterable(touch.planes.items() for touch in told)),
+            "planes": dict(chain.from_iterable(touch.planes.items() for touch in met)),
             "bodies": shaped(r, self.known),
             "joints": r.joints,
             "contacts": {name: x for name, x in contacts.items() if name not in self.astray},
@@ -88,13 +88,13 @@ class Read:
         }
         first = min(chain(meets.values(), strays.values()), default=never)
         if first < never:
-            found = [pair for pair, time in meets.items() if time == first]
-            if wrong := [pair for pair in found if pair in self.met or not self.pairs[pair]]:
+            pairs = [pair for pair, time in meets.items() if time == first]
+            if wrong := [pair for pair in pairs if pair in self.met or not self.pairs[pair]]:
                 for pair in wrong:
                     self._no_word(*pair, first)
                 return self
             astray = {name: time for name, time in strays.items() if time == first}
-            return replace(self, met=[*self.met, *found], astray={**astray, **self.astray})
+            return replace(self, met=[*self.met, *pairs], astray={**astray, **self.astray})
         for bound in self.reading.withins:
             values = observe(scene, motion, bound.quantity)
             slack = DEEP * max(abs(x) for x in (bound.low, bound.high) if abs(x) < never)
@@ -104,11 +104,11 @@ class Read:
                 self.reading.refuse(bound.place, f"{bound.at}, at t = {at:.3g} s")
         return self
 
-    def _no_word(self, one: Outline, other: Outline, time: float) -> None:
-        touch, why = self.pairs[one, other], "in a way that has no word"
+    def _no_word(self, first: Outline, second: Outline, time: float) -> None:
+        touch, why = self.pairs[first, second], "in a way that has no word"
         if past := [t for name, t in self.astray.items() if touch and name in touch.contacts]:
             time, why = min(past), "and goes past its end, which has no word"
-        self.reading.refuse(one.place, f"meets {other.place} at t = {time:.3g} s, {why}")
+        self.reading.refuse(first.place, f"meets {second.place} at t = {time:.3g} s, {why}")
 
     def claims(
         self, scene: Scene, motion: Trajectory, ajar: float, stays: Callable[[str], bool]
@@ -158,8 +158,8 @@ class Read:
             if getattr(owner, name) != getattr(usual, name)
         }
         if other:
-            told = ", ".join(f"{name}: {number!r}" for name, number in other.items())
-            yield f"with its solver's numbers it runs by --settings FILE: pymunk: {{{told}}}"
+            options = ", ".join(f"{name}: {number!r}" for name, number in other.items())
+            yield f"with its solver's numbers it runs by --settings FILE: pymunk: {{{options}}}"
         if through:
             yield (
                 f"corners land faster than {through:g} a second, and in steps of "
@@ -192,13 +192,13 @@ def read(space: Space) -> Read:
     reading = read_bodies(space)
     read_constraints(reading)
     known = outlines(reading)
-    told = {pair: touches(reading, known, *pair) for pair in colliding(known, space)}
+    pairs = {pair: touches(reading, known, *pair) for pair in colliding(known, space)}
     touch = list[Pair]()
-    for one, other in told:
-        deep, rounding = depth(one, other)
+    for first, second in pairs:
+        deep, rounding = depth(first, second)
         if deep > rounding:
-            what = f"is {deep:.3g} deep in {other.place} at the start, which pymunk would part"
-            reading.refuse(one.place, f"{what}: a filter can say that they pass")
+            what = f"is {deep:.3g} deep in {second.place} at the start, which pymunk would part"
+            reading.refuse(first.place, f"{what}: a filter can say that they pass")
         elif deep >= -rounding:
-            touch.append((one, other))
-    return Read(reading, known, told, touch)
+            touch.append((first, second))
+    return Read(reading, known, pairs, touch)

@@ -258,7 +258,7 @@ def test_a_joint_decides() -> None:
 
 @pytest.mark.mutant("a disk's angle starts at 0 where a spring winds by it")
 def test_what_winds_decides() -> None:
-    blind = otherwise(resolve, "not (said or winds or driven)", "not (said or driven)")
+    blind = otherwise(resolve, "not (has_start or winds or driven)", "not (has_start or driven)")
     case = thrown(
         more=f"{AXLE}\n  forces: {{wire: {{torsion: axle, stiffness: 1, rest_angle: 0}}}}"
     )

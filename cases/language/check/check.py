@@ -124,16 +124,16 @@ def sampling(file: File, known: Engines | None) -> Iterator[Finding]:
         next((n for n in counts if _fits(file.duration, n, steps)), None)
         for counts in (below, above)
     ]
-    found = " or ".join(str(n) for n in near if n is not None)
+    better = " or ".join(str(n) for n in near if n is not None)
     interval = file.duration / (file.samples - 1)
-    if not found and (off := _off(by_engine, interval)):
-        path, better = off
-        yield path, f"4 h should divide the sample interval {interval:.6g} s: {better:g} s does"
+    if not better and (off := _off(by_engine, interval)):
+        path, smaller = off
+        yield path, f"4 h should divide the sample interval {interval:.6g} s: {smaller:g} s does"
         return
     yield (
         ("samples",),
         f"the sample interval {interval:.6g} s is not a whole multiple of 4 h for every step h; "
-        + (f"samples: {found} would be" if found else "no count near it is: change the duration"),
+        + (f"samples: {better} would be" if better else "no count near it is: change the duration"),
     )
 
 
@@ -205,31 +205,31 @@ def _chain(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """From the ground on each body hangs on one joint, whose freedoms have names."""
     if any(path[0] == "scene" for path in parsed.broken):
         return  # what is missing may be what joins them
-    hung = {GROUND}
+    connected = {GROUND}
     for name, joint in _outward(scene):
         path = ("scene", "joints", name)
         if any(not freedom.name for freedom in joint.freedoms):
             yield path, f"a {joint.kind} has no coordinates to draw; write `freedoms`"
-        if joint.a.body not in hung:
+        if joint.a.body not in connected:
             what = "begins at nothing that hangs on the ground; name the part nearer to it first"
             yield (*path, joint.word), what
-        elif joint.b.body in hung:
+        elif joint.b.body in connected:
             yield path, "closes a loop: states are drawn of open chains"
-        hung |= {joint.a.body, joint.b.body}
+        connected |= {joint.a.body, joint.b.body}
     for name in scene.bodies:
-        if name not in hung:
+        if name not in connected:
             yield ("scene", "bodies", name), "hangs on nothing: join it to the ground by `freedoms`"
 
 
 def _outward(scene: Scene) -> Iterator[tuple[str, Joint]]:
     """The joints from the ground on; last those that begin at nothing that hangs."""
-    left, hung = dict(scene.joints), {GROUND}
-    while left:
-        ready = (name for name, joint in left.items() if joint.a.body in hung)
-        name = next(ready, None) or next(iter(left))
-        yield name, left[name]
-        hung |= {left[name].a.body, left[name].b.body}
-        del left[name]
+    remaining, connected = dict(scene.joints), {GROUND}
+    while remaining:
+        ready = (name for name, joint in remaining.items() if joint.a.body in connected)
+        name = next(ready, None) or next(iter(remaining))
+        yield name, remaining[name]
+        connected |= {remaining[name].a.body, remaining[name].b.body}
+        del remaining[name]
 
 
 def _limits(file: File) -> Iterator[Finding]:

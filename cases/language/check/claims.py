@@ -14,31 +14,31 @@ from ..parse import Finding, Parsed
 
 def claims(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Mistakes in `events`, `allow`, `reach` and `deviates`."""
-    seen = table(scene) if parsed.file.states is None else claimable(scene)
-    yield from _events(parsed, scene, seen)
+    known = table(scene) if parsed.file.states is None else claimable(scene)
+    yield from _events(parsed, scene, known)
     events = parsed.file.events
-    yield from _bounds(parsed, seen | event_quantities(events) | at_events(events, seen))
+    yield from _bounds(parsed, known | event_quantities(events) | at_events(events, known))
 
 
-def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Iterator[Finding]:
+def _events(parsed: Parsed, scene: Scene, known: Mapping[str, Quantity]) -> Iterator[Finding]:
     for event, rules in parsed.file.events.items():
         for name, rule in rules.items():
             path = ("events", event, name)
-            if name not in seen:
-                yield from _unknown(parsed, seen, path, name)
-            elif not _marks(scene, seen[name]):
+            if name not in known:
+                yield from _unknown(parsed, known, path, name)
+            elif not _marks(scene, known[name]):
                 what = "its zero marks no event; take a place, a velocity, a slip or a force"
                 yield path, what
             else:
-                yield from _fitting(path, rule.to, seen[name])
+                yield from _fitting(path, rule.to, known[name])
 
 
 def _marks(scene: Scene, quantity: Quantity) -> bool:
     """Whether something happens at its zero: of an energy that is arbitrary, drift is numerical."""
     drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
     drift |= quantity.field == "slip" and quantity.part in scene.constraints
-    turned = quantity.field == "attitude"
-    return quantity.kind not in ("energy", "momentum", "acceleration") and not drift and not turned
+    turns = quantity.field == "attitude"
+    return quantity.kind not in ("energy", "momentum", "acceleration") and not drift and not turns
 
 
 def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
@@ -127,10 +127,10 @@ def _unknown(
     elif alike := [f"{part}.{x}" for x in ALIKE.get(field, ()) if f"{part}.{x}" in known]:
         yield path, f"unknown quantity {name!r}; did you mean {alike[0]!r}?"
     elif field in FORCES and part in parsed.file.scene.bodies:
-        told = ", ".join(f"'{force}'" for force in _forces(parsed, part, known))
+        names = ", ".join(f"'{force}'" for force in _forces(parsed, part, known))
         yield (
             path,
-            f"a body has no {field}; forces belong to joints and what acts: {told or 'none'}",
+            f"a body has no {field}; forces belong to joints and what acts: {names or 'none'}",
         )
     else:
         yield path, f"unknown quantity {name!r}{nearest(name, known)}"
@@ -157,27 +157,27 @@ def _forces(parsed: Parsed, body: str, known: Mapping[str, Quantity]) -> Iterato
     scene = parsed.file.scene
     for section in (scene.joints, scene.constraints, scene.forces):
         for name, element in section.items():
-            held = any(at.body == body for at in element.named(name).refers())
-            if held and (force := f"{name}.force") in known:
+            on_body = any(at.body == body for at in element.named(name).refers())
+            if on_body and (force := f"{name}.force") in known:
                 yield force
 
 
 def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:
     """Why a joint has no such coordinate."""
-    left = [f"'{part}.{name}'" for name in WORDS if f"{part}.{name}" in known]
-    has = f"it has {' and '.join(left)}" if left else "it leaves nothing that has one"
+    coordinates = [f"'{part}.{name}'" for name in WORDS if f"{part}.{name}" in known]
+    has = f"it has {' and '.join(coordinates)}" if coordinates else "it leaves nothing that has one"
     return f"{part!r} has no {field}: {has}"
 
 
 def _hidden(parsed: Parsed, name: str) -> bool:
     """Whether the part or event that the quantity is of may be there, but is unsound."""
     part, field = name.split(".")[0], name.split(".")[-1]
-    found = at_event(name, parsed.file.events)
+    event = at_event(name, parsed.file.events)
     unsound = field in EVENT_FIELDS and ("events",) in parsed.broken
     undriven = any(path[:2] == ("scene", "drive") for path in parsed.broken)
     return (
         parsed.hides(part)
-        or (found is not None and parsed.hides(found.quantity.split(".")[0]))
+        or (event is not None and parsed.hides(event.quantity.split(".")[0]))
         or ("events", part) in parsed.broken
         or unsound
         or (field.endswith(("force", "torque")) and undriven)

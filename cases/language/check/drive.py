@@ -15,7 +15,7 @@ TYPED = 1e-9  # of a number: it is typed with up to ten digits, and a sine's pha
 
 def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Every mistake in the sound drives, and in starts that are others than theirs."""
-    left = scene.coordinates()
+    coordinates = scene.coordinates()
     for quantity, drive in parsed.file.scene.drive.items():
         path = ("scene", "drive", quantity)
         part, _, rate = quantity.rpartition(".")
@@ -24,8 +24,8 @@ def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
             continue
         joint = scene.joints[part]
         freedom = joint.rates.get(rate)
-        if freedom is None or rate not in left[part]:
-            yield path, _no_rate(joint, rate, left[part])
+        if freedom is None or rate not in coordinates[part]:
+            yield path, _no_rate(joint, rate, coordinates[part])
             continue
         if freedom.kind == "shift" and joint.dry_friction is not None:
             what = "a part of what its drive would exert: leave one of them out"
@@ -61,8 +61,8 @@ def _agrees(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]
         yield path, f"is {given:g}, but its drive begins with {drive.at_start()[0]:g}"
 
 
-def _no_rate(joint: Joint, rate: str, left: Fields) -> str:
-    rates = {f.name: f"{joint.name}.{f.rate}" for f in joint.rates.values() if f.rate in left}
+def _no_rate(joint: Joint, rate: str, fields: Fields) -> str:
+    rates = {f.name: f"{joint.name}.{f.rate}" for f in joint.rates.values() if f.rate in fields}
     if rate in rates:
         return f"{rate!r} is a coordinate; a drive prescribes its rate, {rates[rate]!r}"
     if not rates:

@@ -83,12 +83,12 @@ def twice(parsed: Parsed) -> Iterator[tuple[Path, str]]:
 
 
 def _points(parsed: Parsed) -> Iterator[Finding]:
-    taken = _TAKEN if parsed.file.scene.space is None else _TAKEN_IN_SPACE
+    names = _TAKEN if parsed.file.scene.space is None else _TAKEN_IN_SPACE
     if FLOOR in parsed.file.scene.points:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
         for point in getattr(body, "points", {}):
-            if point in (*body.own_points, *taken):
+            if point in (*body.own_points, *names):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 

@@ -56,13 +56,13 @@ def _joint(kind: str) -> type[Element]:
         for which in ("turn", "shift", "swing")
     )
     brakes = shifts != turns and not swings
-    asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
-    asked["length"] = swings
+    accepted = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
+    accepted["length"] = swings
     return element(
         kind,
         planar_joint,
         base=_Joint if brakes else _NeverBrakes,
-        without=[key for key, plays in asked.items() if not plays],
+        without=[key for key, plays in accepted.items() if not plays],
         needs=["along"] if shifts else [],
         typed={"dry_friction": (OF_SLIDE if shifts else OF_PIN) | None},
     )
@@ -106,7 +106,7 @@ def parallel(a: Vector3, b: Vector3) -> bool:
 
 def _freedoms(written: dict[str, Left]) -> tuple[Freedom, ...]:
     """In the order of the file; a mistake where they are no coordinates."""
-    freedoms = tuple(left.named(name) for name, left in written.items())
+    freedoms = tuple(freedom.named(name) for name, freedom in written.items())
     shifts = [f for f in freedoms if f.kind == "shift"]
     turns = [f for f in freedoms if f.kind == "turn"]
     for f, g in pairwise(freedoms):
