@@ -8,7 +8,7 @@ from typing import Any
 
 from .case import Case
 from .fields.number import shown
-from .find import case_name, misnamed
+from .find import case_name, check_name
 from .language.check.check import check
 from .language.check.engines import Engines
 from .language.check.work import too_many_variants, work
@@ -50,7 +50,7 @@ def load_document(
     if not long and (what := too_many_variants(document.data)):  # before any is even looked at
         raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document)
-    mistakes = [*misnamed(path), *document.mistakes, *mistakes, *_hidden(document, variants)]
+    mistakes = [*check_name(path), *document.mistakes, *mistakes, *_check_base(document, variants)]
     by_variant: dict[str, list[Mistake]] = {}
     cases: list[Case] = []
     for variant, (data, source) in variants.items():
@@ -64,13 +64,13 @@ def load_document(
             if what != NO_VALUE  # the document has said so
         ]
         cases.append(resolve_case(case_name(path, variant), parsed.file, scene, source, long=long))
-    mistakes += told_once(by_variant)
+    mistakes += merge_mistakes(by_variant)
     if mistakes:
         raise CaseError(mistakes)
     return cases
 
 
-def told_once(by_variant: Mapping[str, list[Mistake]]) -> list[Mistake]:
+def merge_mistakes(by_variant: Mapping[str, list[Mistake]]) -> list[Mistake]:
     """Mistakes of all variants: one that all share once, any other with its variant's name."""
     shared = set.intersection(*(set(mistakes) for mistakes in by_variant.values()))
     return [
@@ -142,7 +142,7 @@ def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def _hidden(
+def _check_base(
     document: Document, variants: Mapping[str, tuple[dict[str, Any], Source]]
 ) -> Iterator[Mistake]:
     """Mistakes of form in what every variant replaces, which none of them would show.
@@ -153,7 +153,7 @@ def _hidden(
     replaced = {
         path: value
         for path, value in _leaves({k: v for k, v in document.data.items() if k != "variants"})
-        if all(_at(data, path) is not value for data in (first, *others))
+        if all(_value_at(data, path) is not value for data in (first, *others))
     }
     whole = first
     for path, value in replaced.items():
@@ -169,7 +169,7 @@ def _leaves(data: Mapping[str, Any], path: Path = ()) -> Iterator[tuple[Path, An
         yield from _leaves(value, (*path, key)) if inner else [((*path, key), value)]
 
 
-def _at(data: Any, path: Path) -> Any:
+def _value_at(data: Any, path: Path) -> Any:
     for key in path:
         data = data.get(key) if isinstance(data, dict) else None
     return data

@@ -35,7 +35,7 @@ def themes(case: Case) -> tuple[str, ...]:
         "friction": _dry(scene) or any(c.switches and c.static > 0.0 for c in contacts),
         "impacts": _strikes(case),
         "drag": bool(words & VISCOUS),
-        "driven": bool(words & GIVEN) or bool(scene.drives) or _moved(scene),
+        "driven": bool(words & GIVEN) or bool(scene.drives) or _has_moved_point(scene),
         "space": scene.frame.dimension == 3,
         "states": case.states is not None,
     }
@@ -68,7 +68,7 @@ def _dry(scene: Scene) -> bool:
     return any(getattr(joint, "dry_friction", None) for joint in scene.joints.values())
 
 
-def _moved(scene: Scene) -> bool:
+def _has_moved_point(scene: Scene) -> bool:
     return any(point.driven for point in scene.points.values())
 
 

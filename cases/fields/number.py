@@ -107,19 +107,19 @@ def names(parameters: object) -> Names:
 def amount(value: object, known: Names = NONE) -> Amount:
     """A literal or a quantity with its unit, in SI; known: what else a formula may name."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        return Amount(_sized(float(value), value))
+        return Amount(_check_size(float(value), value))
     short = isinstance(value, str) and len(value) <= SHORT
     if short and (match := _QUANTITY.fullmatch(str(value))):
-        return _measured(float(match[1]), match[2], str(value))
+        return _amount_with_unit(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
     text = str(value).strip() if short else ""
     if _formula(text) and all(word == "pi" or word in known.amounts for word in _words(text)):
-        raise NumberMistake(f"{value!r} is not computed: write {_computed(text, known)}")
+        raise NumberMistake(f"{value!r} is not computed: write {_suggestion(text, known)}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
 
 
-def named_in(text: str, parameters: Collection[str]) -> set[str]:
+def parameters_in(text: str, parameters: Collection[str]) -> set[str]:
     """The parameters that a text names: as a number, as `-name`, or in a formula, which is none."""
     whole = not _formula(text) or _QUANTITY.fullmatch(text)
     words = [text.removeprefix("-")] if whole else _words(text)
@@ -135,7 +135,7 @@ def _words(formula: str) -> list[str]:
     return [part for part in parts if _NAME.fullmatch(part)]
 
 
-def _computed(formula: str, known: Names) -> str:
+def _suggestion(formula: str, known: Names) -> str:
     """The words for what to write instead: of two numbers what they make."""
     of_two = _OF_TWO.fullmatch(formula)
     x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
@@ -161,23 +161,23 @@ def number(value: object, unit: str | None, known: Names) -> Amount | None:
     if value is MISTAKEN:
         return None
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
-        return turned(fitting(amount(value, known), unit), unit)
+        return check_angle(check_unit(amount(value, known), unit), unit)
     if not known.amounts:
         raise NumberMistake(f"should be a number, is {shown(value)}")
     if name not in known.amounts:
         raise NumberMistake(f"unknown parameter {name!r}{nearest(name, known.amounts)}")
-    parameter = known.amounts[name]
-    if parameter is None:
+    entry = known.amounts[name]
+    if entry is None:
         return None
     sign = -1.0 if value.startswith("-") else 1.0
-    as_typed = parameter.text or f"{parameter.value:g}"
+    as_typed = entry.text or f"{entry.value:g}"
     if sign < 0.0:
         as_typed = as_typed[1:] if as_typed.startswith("-") else f"-{as_typed}"
     text = f"{value} = {as_typed}"
-    return turned(fitting(Amount(sign * parameter.value, parameter.dimension, text), unit), unit)
+    return check_angle(check_unit(Amount(sign * entry.value, entry.dimension, text), unit), unit)
 
 
-def turned(given: Amount, unit: str | None) -> Amount:
+def check_angle(given: Amount, unit: str | None) -> Amount:
     """The amount; of an angle above one turn it is asked whether it is one in degrees."""
     if unit == "rad" and given.dimension is None and abs(given.value) > TURN:
         raise NumberMistake(
@@ -187,7 +187,7 @@ def turned(given: Amount, unit: str | None) -> Amount:
     return given
 
 
-def fitting(given: Amount, unit: str | None) -> Amount:
+def check_unit(given: Amount, unit: str | None) -> Amount:
     """The amount, if it can be measured in `unit` (None: in anything)."""
     if unit is None or given.dimension is None or given.dimension == _dimension(unit):
         return given
@@ -212,13 +212,13 @@ def per_second(unit: str, times: int) -> str:
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def _measured(value: float, unit: str, text: str) -> Amount:
+def _amount_with_unit(value: float, unit: str, text: str) -> Amount:
     converted = _quantity(value, unit)
-    size = _sized(float(converted.magnitude), repr(text))
+    size = _check_size(float(converted.magnitude), repr(text))
     return Amount(size, str(converted.dimensionality), text)
 
 
-def _sized(value: float, text: object) -> float:
+def _check_size(value: float, text: object) -> float:
     """The value, if it can be computed with."""
     if not math.isfinite(value):
         raise NumberMistake(f"must be finite, is {text}")
@@ -243,19 +243,19 @@ def _quantity(value: float, unit: str) -> Any:
         return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
     except (AttributeError, ValueError):  # pint's UndefinedUnitError, and its word for `nan`
         words = re.findall(r"[A-Za-zµμ°]+", unit)
-        units = _apart(words[0]) if len(words) == 1 else ()
+        units = _split_units(words[0]) if len(words) == 1 else ()
         # grams come first: kgg is a slip
         hint = f"; did you mean {' '.join(units)!r}?" if units and "g" not in units[1:] else ""
         hint = hint or (nearest(words[0], _KNOWN) if len(words) == 1 else "")
         raise NumberMistake(f"unknown unit {unit!r}{hint}") from None
 
 
-def _apart(word: str) -> tuple[str, ...]:
+def _split_units(word: str) -> tuple[str, ...]:
     """Units that were written together, as Nm; none where it is no such word."""
     for known in sorted(_KNOWN, key=len):
         if word == known:
             return (known,)
-        if word.startswith(known) and (rest := _apart(word.removeprefix(known))):
+        if word.startswith(known) and (rest := _split_units(word.removeprefix(known))):
             return known, *rest
     return ()
 

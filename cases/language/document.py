@@ -44,7 +44,7 @@ def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
 
     only: the keys at its margin to read, where not all are asked for, in a quarter of the time.
     """
-    return _parsed(str(path), _only(_text(path), only) if only else _text(path))
+    return _parsed(str(path), _blank_others(_text(path), only) if only else _text(path))
 
 
 @lru_cache(AT_HAND)
@@ -52,7 +52,7 @@ def _parsed(file: str, text: str) -> Document:
     """Parses the text; that is most of what reading costs, and a test session reads twice."""
     lines = tuple(BREAK.split(text)[::2])
     if either := EITHER.search(text):
-        raise CaseError([_unclear(file, lines, text, either.start())])
+        raise CaseError([_ambiguous_break(file, lines, text, either.start())])
     tree = Tree(file, lines)
     try:
         data = tree.document(YAML(typ="safe", pure=True).parse(text))
@@ -71,14 +71,14 @@ def _parsed(file: str, text: str) -> Document:
     return Document(Source(file, lines, tree.places), data, tree.mistakes)
 
 
-def _unclear(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
+def _ambiguous_break(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
     """ruamel counts lines without it, and ends comments with it."""
     line, column = _end(text[:at])
     what = f"the character {plain(text[at])} ends a line for some and not for others: leave it out"
     return Mistake(file, line, column, "", what, lines[line - 1])
 
 
-def _only(text: str, keys: Collection[str]) -> str:
+def _blank_others(text: str, keys: Collection[str]) -> str:
     """Nothing stands on the lines of other keys: places stay what they are."""
     keep, parts = True, BREAK.split(text)
     for k in range(0, len(parts), 2):

@@ -21,12 +21,12 @@ def resolve_scene(file: File) -> Scene:
     """The scene, with its references as they stand (check/links.py checks them)."""
     s: Any = file.scene
     in_space = s.space is not None
-    bodies, planes = _named(s.bodies), {} if in_space else _named(s.planes)
+    bodies, planes = _by_name(s.bodies), {} if in_space else _by_name(s.planes)
     pairs = {} if in_space else {n: c for n, c in s.contacts.items() if c.pairs(bodies)}
-    joints, contacts = _named(s.joints), {n: c for n, c in s.contacts.items() if n not in pairs}
+    joints, contacts = _by_name(s.joints), {n: c for n, c in s.contacts.items() if n not in pairs}
     if in_space:
         starts = {**file.near, **file.initial}
-        joints = {name: _begun(joint, starts.get(name)) for name, joint in joints.items()}
+        joints = {name: _with_start(joint, starts.get(name)) for name, joint in joints.items()}
         down, slope = (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
     else:
         down, slope = (0.0, 0.0 if s.seen else -1.0), (1.0, 0.0)
@@ -36,22 +36,22 @@ def resolve_scene(file: File) -> Scene:
         bodies=bodies,
         joints=joints,
         contacts={n: contact.named(n, bodies, planes) for n, contact in contacts.items()},
-        forces=_named(s.forces),
-        constraints=_named(s.constraints),
+        forces=_by_name(s.forces),
+        constraints=_by_name(s.constraints),
         drives={rate: drive.signal for rate, drive in s.drive.items()},
         pairs={n: contact.paired(n) for n, contact in pairs.items()},
         frame=SPACE if in_space else PLANE,
     )
 
 
-def _begun(joint: Joint, start: Any) -> Joint:
+def _with_start(joint: Joint, start: Any) -> Joint:
     """With the angles of the start, near which turns in space are counted."""
     given = {} if start is None else start.given
     turns = [turn.name for turn in joint.turns if turn.name in given]
     return replace(joint, begins={name: given[name] for name in turns})
 
 
-def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
+def _by_name(elements: Mapping[str, Any]) -> dict[str, Any]:
     return {name: element.named(name) for name, element in elements.items()}
 
 
@@ -73,7 +73,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,
         scene=scene,
-        initial=_turned(_placements(file.initial, scene), scene, file.events),
+        initial=_with_free_attitudes(_placements(file.initial, scene), scene, file.events),
         near=_placements(file.near, scene),
         duration=file.duration if states is None else states.random - 1.0,
         samples=file.samples if states is None else states.random,
@@ -129,7 +129,7 @@ def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]
     }
 
 
-def _turned(
+def _with_free_attitudes(
     starts: dict[str, Placement], scene: Scene, events: Mapping[str, Mapping[str, Any]]
 ) -> dict[str, Placement]:
     """With the attitude 0 of each disk or sphere that gives none, if nothing depends on it."""

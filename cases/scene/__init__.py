@@ -31,7 +31,7 @@ from .forces.force import (
     Torsion,
     TorsionDamper,
     Viscous,
-    of,
+    of_kind,
 )
 from .frame import PLANE, Frame
 from .joint import Joint, planar_joint
@@ -72,7 +72,7 @@ __all__ = [
     "TorsionDamper",
     "Vector",
     "Viscous",
-    "once",
+    "cached_by_scene",
     "planar_joint",
 ]
 
@@ -161,7 +161,7 @@ class Scene:
 
     def springs(self) -> Iterator[Spring]:
         """The springs along a line."""
-        return of(Spring, self.forces.values())
+        return of_kind(Spring, self.forces.values())
 
     def one_sided(self) -> Iterator[Spring]:
         """The springs that only press or only pull."""
@@ -169,16 +169,16 @@ class Scene:
 
     def limits(self) -> Iterator[Limit]:
         """The forces that hold on one side: ropes and stops."""
-        return of(Limit, self.forces.values())
+        return of_kind(Limit, self.forces.values())
 
     def dampers(self) -> Iterator[Damper]:
         """The dampers along a line."""
-        return of(Damper, self.forces.values())
+        return of_kind(Damper, self.forces.values())
 
     def signals(self) -> Iterator[Push | Torque | Couple | Motor]:
         """The forces and torques that are given in time."""
         kinds = (Push, Torque, Couple, Motor)
-        return (f for kind in kinds for f in of(kind, self.forces.values()))
+        return (f for kind in kinds for f in of_kind(kind, self.forces.values()))
 
     def inner(self) -> dict[str, Force]:
         """The forces with an inner state, by the quantity that it is."""
@@ -213,7 +213,7 @@ class Scene:
 Made = TypeVar("Made")
 
 
-def once(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
+def cached_by_scene(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
     """Returns the function as one that makes its answer once for each scene, and keeps it there.
 
     The answer is handed out as it is: whoever asks does not change it.

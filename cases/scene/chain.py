@@ -12,7 +12,7 @@ from .rotation import UPRIGHT, Vector3, inverse, product, turned
 ROUNDING = 3 * float(np.finfo(float).eps)  # of three numbers each
 
 
-def orthogonal(vectors: Sequence[Sequence[float]]) -> list[Array]:
+def orthonormal(vectors: Sequence[Sequence[float]]) -> list[Array]:
     """Orthonormal vectors that span the same, by Gram and Schmidt."""
     basis: list[Array] = []
     for vector in vectors:
@@ -23,9 +23,9 @@ def orthogonal(vectors: Sequence[Sequence[float]]) -> list[Array]:
     return basis
 
 
-def across(vectors: Sequence[Sequence[float]]) -> list[Array]:
+def orthogonal_complement(vectors: Sequence[Sequence[float]]) -> list[Array]:
     """Orthonormal vectors that complete what the given ones span to all of space."""
-    basis = orthogonal(vectors)
+    basis = orthonormal(vectors)
     complement: list[Array] = []
     for _ in range(3 - len(basis)):
         rests = [e - sum((e @ u) * u for u in (*basis, *complement)) for e in np.eye(3)]
@@ -34,7 +34,7 @@ def across(vectors: Sequence[Sequence[float]]) -> list[Array]:
     return complement
 
 
-def shifted(
+def shift_coordinates(
     axes: Sequence[Vector3], d: Array, d_dot: Array, q: Array, omega: Array
 ) -> tuple[Array, Array]:
     """(N, K) each: how far a point is along axes of the first part, and how fast.
@@ -71,7 +71,7 @@ class Turns:
         return self.angles + math.tau * np.round((expected - self.angles) / math.tau)
 
 
-def turned_by(
+def turn_solutions(
     axes: Sequence[Vector3], q_a: Array, omega_a: Array, q_b: Array, omega_b: Array
 ) -> list[Turns]:
     """The ways in which up to three successive turns make the attitude of b against a: one or two.

@@ -35,7 +35,7 @@ def counted(ways: Sequence[Turns], times: Array, begins: Sequence[float | None])
     Between two rows a turn goes on by the mean of both rates, to less than half a turn: the rows
     have to be as close as `far` asks. What begins near nothing begins within half a turn of zero.
     """
-    way, start = _begun(ways, begins)
+    way, start = _nearest_at_start(ways, begins)
     if len(ways) > 1:
         return _one_by_one([way, *(other for other in ways if other is not way)], times, start)
     expected = 0.5 * (way.rates[1:] + way.rates[:-1]) * np.diff(times)[:, None]
@@ -44,7 +44,7 @@ def counted(ways: Sequence[Turns], times: Array, begins: Sequence[float | None])
     return replace(way, angles=way.angles + math.tau * np.cumsum(whole, axis=0))
 
 
-def _begun(ways: Sequence[Turns], begins: Sequence[float | None]) -> tuple[Turns, Array]:
+def _nearest_at_start(ways: Sequence[Turns], begins: Sequence[float | None]) -> tuple[Turns, Array]:
     """The way whose first row is nearer to what is said of the start, and its angles (K,) there."""
     known = np.array([math.nan if begin is None else begin for begin in begins])
     candidates = []
@@ -73,7 +73,7 @@ def _one_by_one(ways: Sequence[Turns], times: Array, start: Array) -> Turns:
     return replace(ways[0], angles=angles, rates=rates)
 
 
-def far(turns: Turns, times: Array) -> Array:
+def ambiguous_turns(turns: Turns, times: Array) -> Array:
     """(N − 1,) whether a turn goes so far between two rows that they may not tell how far.
 
     Or the middle one of three so far as gimbal lock is away, at which the others may go anywhere.

@@ -6,7 +6,7 @@ from ..trajectory import Array
 from .rotation import angle_between, inverse, product
 
 
-def apart(a: Array, b: Array) -> Array:
+def deviation(a: Array, b: Array) -> Array:
     """(N,) |a − b| of numbers (N,); of attitudes (N, 4) the angle [rad] between them."""
     return np.abs(a - b) if a.ndim == 1 else angle_between(a, b)
 

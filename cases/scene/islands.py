@@ -10,7 +10,7 @@ from typing import Any
 from . import Anchor, Scene
 
 
-def apart(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
+def solved_scenes(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
     """The scenes that are solved one by one: the islands, or one of what is looked at together.
 
     A hand-written system is one, and events are read from the record of one motion.
@@ -21,7 +21,7 @@ def apart(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
 def islands(scene: Scene) -> tuple[Scene, ...]:
     """The bodies that hang together, with all that acts on them; of one island the scene itself."""
     together = {name: {name} for name in scene.bodies}
-    ends = {name: _bodies(scene, anchors) for name, anchors in _acting(scene)}
+    ends = {name: _bodies(scene, anchors) for name, anchors in _connections(scene)}
     for bodies in ends.values():
         joined = set[str]().union(*(together[name] for name in bodies))
         together |= dict.fromkeys(joined, joined)
@@ -29,7 +29,7 @@ def islands(scene: Scene) -> tuple[Scene, ...]:
     return (scene,) if len(groups) <= 1 else tuple(_part(scene, ends, group) for group in groups)
 
 
-def _acting(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
+def _connections(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
     """Yields what is between bodies, or between a body and the ground: its name and its points."""
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs):
         yield from ((element.name, element.refers()) for element in section.values())

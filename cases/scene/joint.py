@@ -13,7 +13,7 @@ from ..fields.kind import WORK, Fields
 from ..fields.part import Angle, Direction
 from ..trajectory import Array
 from .body import Body
-from .chain import Turns, orthogonal, shifted, turned_by
+from .chain import Turns, orthonormal, shift_coordinates, turn_solutions
 from .counting import counted, nearest
 from .frame import PLANE, SPACE, Frame
 from .motion import Motion
@@ -272,7 +272,7 @@ class Joint:
             both = [np.reshape(values, (-1, len(d))).T for values in zip(*each, strict=True)]
             return both[0], both[1]
         first = axes_of(motion, self.a.body)
-        shifts = shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
+        shifts = shift_coordinates([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
         if any(f.kind == "ball" for f in self.freedoms):
             return np.column_stack([shifts[0], none]), np.column_stack([shifts[1], none])
         turns = self.turned(motion)
@@ -281,7 +281,7 @@ class Joint:
     def turned(self, motion: Motion) -> Turns:
         """Its turns in space by themselves, of which none is a ball's."""
         first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
-        ways = turned_by([f.axis for f in self.turns], *first, *second)
+        ways = turn_solutions([f.axis for f in self.turns], *first, *second)
         expected = motion.trajectory.near.get(self.name)
         if expected is not None:
             return nearest(ways, expected)
@@ -317,7 +317,7 @@ class Joint:
         d, _ = np.hsplit(motion.point(self.b) - motion.point(self.a), 2)
         if self.shifts:
             q, _ = axes_of(motion, self.a.body)
-            for freedom in orthogonal([f.axis for f in self.shifts]):
+            for freedom in orthonormal([f.axis for f in self.shifts]):
                 u = self.frame.turned(q, freedom)
                 d = d - np.sum(d * u, axis=1, keepdims=True) * u
         apart = self.frame.size(d)

@@ -11,7 +11,7 @@ from typing import Literal
 
 from ..fields.event import Event
 from ..fields.kind import Fields, Kind
-from . import Scene, once
+from . import Scene, cached_by_scene
 
 _ENERGY: Fields = {
     "kinetic": ("J", "energy"),
@@ -48,7 +48,7 @@ class Quantity:
     kind: Kind  # what it is told by: a place, a velocity, a force, …
 
 
-@once
+@cached_by_scene
 def table(scene: Scene) -> MappingProxyType[str, Quantity]:
     """Every quantity of the scene by name, in the scene's order."""
     parts: dict[str, Fields] = {}
@@ -84,7 +84,7 @@ def at_event(name: str, events: Container[str]) -> AtEvent | None:
     return AtEvent(event, quantity, last) if last in SIDES[1:] else AtEvent(event, rest, "")
 
 
-def told_by(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
+def needed_by_events(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
     """The quantities that the events are of, and those that are bounded at events."""
     names = [event.quantity for event in events.values()]
     return names + [at.quantity for name in bounded if (at := at_event(name, events))]

@@ -73,7 +73,7 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
     known = {
         name: quantity
         for name, quantity in table(scene).items()
-        if _told(scene, quantity) and not _drawn(scene, quantity)
+        if _claimable(scene, quantity) and not _drawn(scene, quantity)
     }
     for part, fields in _more(scene):
         for field, (unit, kind) in fields.items():
@@ -86,7 +86,7 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
     return known
 
 
-def _told(scene: Scene, quantity: Quantity) -> bool:
+def _claimable(scene: Scene, quantity: Quantity) -> bool:
     if quantity.field in WORK:  # a state has no time in which any would be done
         return False
     return quantity.kind in _OF_STATES or quantity.part in scene.forces

@@ -23,13 +23,13 @@ Depths = Callable[[str, Vector], Array]
 """How deep (N,) [m] a point of a body, by its name and place on it, is in something."""
 
 
-def through(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
+def penetrations(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
     """Yields a sentence for each thing that points of a body go through, about the deepest."""
     motion = motion_of(scene, trajectory)
     for body in scene.bodies.values():
         outline = _outline(body)
         deep = DEEP * max((float(np.linalg.norm(at)) for at in outline.values()), default=0.0)
-        for (on, depths), names in _stood_on(scene, body, motion).items():
+        for (on, depths), names in _named_points(scene, body, motion).items():
             depth = {name: depths(name, at) for name, at in outline.items() if name not in names}
             deepest = max(depth, key=lambda name: float(np.max(depth[name])), default="")
             if deepest and (most := float(np.max(depth[deepest]))) > deep:
@@ -51,28 +51,28 @@ def _outline(body: Body) -> Mapping[str, Vector]:
     return points
 
 
-def _stood_on(scene: Scene, body: Body, motion: Motion) -> dict[tuple[str, Depths], set[str]]:
+def _named_points(scene: Scene, body: Body, motion: Motion) -> dict[tuple[str, Depths], set[str]]:
     """The planes and sides that contacts of the body are with, and the points that these name."""
     by_name: dict[str, Depths] = {}
     names: dict[tuple[str, Depths], set[str]] = {}
     for contact in scene.contacts.values():
         if contact.body == body.name:
-            below = by_name.setdefault(contact.on, partial(_below, motion, body, contact.plane))
+            below = by_name.setdefault(contact.on, partial(_depth, motion, body, contact.plane))
             names.setdefault((contact.on, below), set()).update(contact.tips or (contact.at.point,))
     for pair in scene.pairs.values():
         if pair.body == body.name and pair.face is not None:
-            inside = by_name.setdefault(pair.on, partial(_inside, motion, pair))
+            inside = by_name.setdefault(pair.on, partial(_depth_inside, motion, pair))
             names.setdefault((pair.on, inside), set()).add(pair.at.point)
     return names
 
 
-def _below(motion: Motion, body: Body, plane: Plane, name: str, at: Vector) -> Array:
+def _depth(motion: Motion, body: Body, plane: Plane, name: str, at: Vector) -> Array:
     states = motion.trajectory.states[body.name]
     points = body.frame.moved(states, at)[:, : len(at)]
     return -(points - np.array(plane.at)) @ np.array(plane.normal)
 
 
-def _inside(motion: Motion, pair: Pair, name: str, at: Vector) -> Array:
+def _depth_inside(motion: Motion, pair: Pair, name: str, at: Vector) -> Array:
     """0 beside the face, and beyond the block's other side: there it is below, and not inside."""
     other = replace(pair, at=Anchor(pair.body, name))
     depth = -other.normal_and_gap(motion)[1]

@@ -14,7 +14,7 @@ from ...cases.mistake import CaseError, Mistake
 from ...cases.trajectory import Array
 from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
 from .control import Controls, Law
-from .numbers import named, numbers
+from .numbers import element_name, numbers
 from .places import Places, places
 from .release import actuators, column, mass_matrix
 
@@ -73,7 +73,7 @@ class OwnModel:
         if self.begins:
             return f"from {self.begins}"
         if self.model.nkey:
-            name = named(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
+            name = element_name(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
             return f"from its keyframe {name}, with the keyframe's controls"
         return f"from where it stands, with rates up to {RATE} rad/s and m/s drawn by chance"
 
@@ -92,7 +92,7 @@ class OwnModel:
         low, high = m.actuator_ctrlrange.T if m.nu else (np.zeros(0), np.zeros(0))
         limited = np.array(m.actuator_ctrllimited, dtype=bool)
         for _ in range(count):
-            q = moved(m, start.qpos, random.uniform(-REACH, REACH, m.nv))
+            q = displaced(m, start.qpos, random.uniform(-REACH, REACH, m.nv))
             u = random.uniform(np.where(limited, low, -1.0), np.where(limited, high, 1.0))
             yield State(q, random.uniform(-RATE, RATE, m.nv), u)
 
@@ -147,7 +147,7 @@ def drawn_rates(model: mujoco.MjModel, most: float = RATE, seed: int = 0) -> Arr
     return np.random.default_rng(seed).uniform(-most, most, model.nv)
 
 
-def apart(model: mujoco.MjModel, start: Array, end: Array) -> Array:
+def joint_moves(model: mujoco.MjModel, start: Array, end: Array) -> Array:
     """(N, n) [rad, m]: by how much each joint has to move from q (N, m) to the other."""
     joints = np.empty((len(start), model.nv))
     for row, a, b in zip(joints, start, end, strict=True):
@@ -162,7 +162,7 @@ def image(model: mujoco.MjModel) -> bytes:
     return buffer.tobytes()
 
 
-def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:
+def displaced(model: mujoco.MjModel, q: Array, by: Array) -> Array:
     """Returns coordinates q (m,), of which each joint is moved by (n,) [rad, m]."""
     other = np.array(q)
     mujoco.mj_integratePos(model, other, by, 1.0)

@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from .model import OwnModel
-from .numbers import named
-from .quantities import called
+from .numbers import element_name
+from .quantities import label
 from .release import mass_matrix
 
 STIFF = 2.0  # (kv + damping) h / M_eff: an explicit step of v̇ = −c v overshoots, and grows above it
@@ -48,27 +48,27 @@ def _joints(own: OwnModel) -> Iterator[Suspicion]:
     )
     ratio, fast = (kv + tree.damping) * h / mass, kp * h**2 / mass
     for k in map(int, np.argsort(-ratio)):
-        name = called(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[k]))
+        name = label(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[k]))
         if ratio[k] > STIFF:
             why = f"(kv + damping) h / M_eff = {ratio[k]:.3g}, above {STIFF:g}"
-            yield Suspicion(f"{name}: {why}; {_explicit(m, kv[k])}", k)
+            yield Suspicion(f"{name}: {why}; {_damping_words(m, kv[k])}", k)
         if fast[k] > FAST and not tree.armature[k]:
             why = f"no armature on a light link: kp h² / M_eff = {fast[k]:.3g}, above {FAST:g}"
             yield Suspicion(f"{name}: {why}", k)
         p = int(m.dof_parentid[k])
-        if p >= 0 and _alike(m, k, p) and mass[p] / mass[k] > APART:
-            other = called(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[p]))
+        if p >= 0 and _same_kind(m, k, p) and mass[p] / mass[k] > APART:
+            other = label(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[p]))
             why = f"{mass[p] / mass[k]:.2g} times smaller than that of {other}, above {APART:g}"
             yield Suspicion(f"{name}: its M_eff is {why}", k)
 
 
-def _alike(m: mujoco.MjModel, k: int, p: int) -> bool:
+def _same_kind(m: mujoco.MjModel, k: int, p: int) -> bool:
     """Whether two velocities both turn or both shift, of joints that do no more than that."""
     kind, other = m.jnt_type[m.dof_jntid[[k, p]]]
     return kind == other and kind in ALONE
 
 
-def _explicit(m: mujoco.MjModel, kv: float) -> str:
+def _damping_words(m: mujoco.MjModel, kv: float) -> str:
     """Returns what the model's integrator makes of damping."""
     name = mujoco.mjtIntegrator(m.opt.integrator).name.removeprefix("mjINT_")
     if name.startswith("IMPLICIT"):
@@ -93,6 +93,6 @@ def short_times(own: OwnModel, step: float | None = None) -> list[tuple[str, flo
     ):
         least = 0.0 if flags & DISABLED.mjDSBL_REFSAFE else SHORT * (step or m.opt.timestep)
         for i in map(int, np.flatnonzero((times > 0) & (times < least) & acts)):
-            name = own.places.after(f"{word} {named(m, kind, i)}", (kind, i))
+            name = own.places.after(f"{word} {element_name(m, kind, i)}", (kind, i))
             short.append((name, float(times[i])))
     return short

@@ -36,8 +36,8 @@ def _elements(own: OwnModel) -> Iterator[tuple[str, str]]:
         yield "sleep", own.places.after("option", "sleep")
     actuator, sensor = OBJECT.mjOBJ_ACTUATOR, OBJECT.mjOBJ_SENSOR
     for reason, kind, has in (
-        ("delay", actuator, _late(m, "actuator")),
-        ("delay", sensor, _late(m, "sensor")),
+        ("delay", actuator, _has_delay(m, "actuator")),
+        ("delay", sensor, _has_delay(m, "sensor")),
         ("early", actuator, m.actuator_actearly),
         ("state", OBJECT.mjOBJ_JOINT, column(m, "jnt_plasticadr") >= 0),
         ("state", OBJECT.mjOBJ_TENDON, column(m, "tendon_plasticadr") >= 0),
@@ -49,5 +49,5 @@ def _elements(own: OwnModel) -> Iterator[tuple[str, str]]:
         yield "state", element(m, own.places, kind, i)
 
 
-def _late(m: mujoco.MjModel, word: str) -> np.ndarray:
+def _has_delay(m: mujoco.MjModel, word: str) -> np.ndarray:
     return (column(m, f"{word}_delay") != 0) | (column(m, f"{word}_history") != 0).any(axis=1)

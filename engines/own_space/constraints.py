@@ -66,7 +66,7 @@ def read_constraints(reading: Reading) -> None:
         if of is None:
             reading.refuse(place, "has no word")
             continue
-        _common(links, c, of, place)
+        _check_common(links, c, of, place)
         if of in JOINTS:
             JOINTS[of](links, c, name, place)
         else:
@@ -77,7 +77,7 @@ def read_constraints(reading: Reading) -> None:
             read(reading, c, name, place, joint, sense, offset)
 
 
-def _common(links: Links, c: Constraint, of: type, place: str) -> None:
+def _check_common(links: Links, c: Constraint, of: type, place: str) -> None:
     if c.pre_solve or c.post_solve:
         links.reading.refuse(place, "calls code of yours, which has no word")
     if c.max_force < inf and of not in BOUNDED:
@@ -92,7 +92,7 @@ def _ends(links: Links, c: Any, name: str, place: str, first: Any) -> tuple[str,
     )
 
 
-def _bounded(links: Links, c: Constraint, name: str, place: str) -> None:
+def _bound_force(links: Links, c: Constraint, name: str, place: str) -> None:
     if c.max_force < inf:
         at = f"needs more than its max_force, {c.max_force:g}"
         links.reading.withins.append(Within(f"{name}.force", -inf, c.max_force, place, at))
@@ -101,13 +101,13 @@ def _bounded(links: Links, c: Constraint, name: str, place: str) -> None:
 def _pivot(links: Links, c: PivotJoint, name: str, place: str) -> None:
     links.reading.joints[name] = {"pin": _ends(links, c, name, place, c.anchor_a)}
     links.turning.setdefault((links.part(c.a), links.part(c.b)), name)
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _rod(links: Links, c: PinJoint | SlideJoint, length: float, name: str, place: str) -> None:
     pair = _ends(links, c, name, place, c.anchor_a)
     links.reading.joints[name] = {"distance": pair, "length": length}
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _pin(links: Links, c: PinJoint, name: str, place: str) -> None:
@@ -123,7 +123,7 @@ def _slide(links: Links, c: SlideJoint, name: str, place: str) -> None:
     if c.min > 0.0:
         at = "comes to its min, at which nothing in a case file holds"
         links.reading.withins.append(Within(f"{name}.length", c.min, inf, place, at))
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _groove(links: Links, c: GrooveJoint, name: str, place: str) -> None:
@@ -134,7 +134,7 @@ def _groove(links: Links, c: GrooveJoint, name: str, place: str) -> None:
     links.turning.setdefault((links.part(c.a), links.part(c.b)), name)
     at = "comes to an end of its groove, at which nothing in a case file holds"
     links.reading.withins.append(Within(f"{name}.shift", 0.0, along.length, place, at))
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _spring(links: Links, c: DampedSpring, name: str, place: str) -> None:

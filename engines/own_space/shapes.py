@@ -99,7 +99,7 @@ def _corners(shape: Shape) -> list[Vec2d]:
     return shape.get_vertices()
 
 
-def colliding(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Outline]]:
+def collisions(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Outline]]:
     """Returns each two that pymunk lets collide; of one that moves and one that does not, it first.
 
     As `cpSpaceStep` asks: not of one body, nor of two whose filters or joints forbid it.
@@ -109,24 +109,24 @@ def colliding(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Out
         (first, second) if first.body else (second, first)
         for first, second in combinations(known, 2)
         if first.body != second.body and {first.shape.body, second.shape.body} not in exempt
-        if _meet(first.shape.filter, second.shape.filter)
+        if _may_collide(first.shape.filter, second.shape.filter)
     ]
 
 
-def _meet(a: ShapeFilter, b: ShapeFilter) -> bool:
+def _may_collide(a: ShapeFilter, b: ShapeFilter) -> bool:
     in_one_group = a.group != 0 and a.group == b.group
     return not in_one_group and bool(a.categories & b.mask) and bool(b.categories & a.mask)
 
 
-def shaped(reading: Reading, known: Sequence[Outline]) -> Words:
+def body_shapes(reading: Reading, known: Sequence[Outline]) -> Words:
     """Returns the bodies in words: a disk, a block, a particle, or any rigid body with points."""
     return {
-        name: _shaped(body, [o for o in known if o.body == name], reading.own_points[name])
+        name: _body_words(body, [o for o in known if o.body == name], reading.own_points[name])
         for body, name in reading.names.items()
     }
 
 
-def _shaped(body: Body, own: list[Outline], points: Words) -> Words:
+def _body_words(body: Body, own: list[Outline], points: Words) -> Words:
     rest = {"points": points} if points else {}
     if not turns(body):
         return {"particle": {"mass": body.mass}}
@@ -160,7 +160,7 @@ def _box(own: list[Outline], body: Body) -> tuple[float, float] | None:
     return (w, h) if square and _alike(body.moment, body.mass * (w**2 + h**2) / 12) else None
 
 
-def touches(
+def find_contacts(
     reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
     """Returns the contacts of the two, of which the first moves; None where there is no word."""
@@ -168,7 +168,7 @@ def touches(
         return _on_ground(reading, known, first, second)
     both = [_on_body(reading, known, *pair) for pair in ((first, second), (second, first))]
     candidates = [touch for touch in both if touch]
-    return max(candidates, key=_over, default=None)
+    return max(candidates, key=_within_side, default=None)
 
 
 def _on_body(
@@ -178,32 +178,32 @@ def _on_body(
     body = second.shape.body
     assert body is not None
     own = [outline for outline in known if outline.body == second.body]
-    words, touched, side = _touching(reading, known, first), str(second.body), None
+    words, touched, side = _touch_points(reading, known, first), str(second.body), None
     if not (turns(body) and words):
         return None
     if _box(own, body):
-        side = _before(first, _sides(second))
+        side = _facing_side(first, _sides(second))
         turned = side.normal.rotated(-body.angle)
         touched += f".{max(FACES, key=lambda face: turned.dot(FACES[face].normal))}"
     elif not (_rim(own) and len(words) == 1):
         return None
     contacts = {
-        f"{first.name}_on_{second.name}{end}": _words(first, second, word, touched)
+        f"{first.name}_on_{second.name}{end}": _contact_words(first, second, word, touched)
         for word, end in words.items()
     }
     return Touch(first, second, contacts, {}, side)
 
 
-def _over(touch: Touch) -> bool:
+def _within_side(touch: Touch) -> bool:
     """Whether what of the first is nearest to the side is over it, and not past its ends."""
     if touch.side is None:
         return True
     side, along = touch.side, touch.side.ends - touch.side.begins
-    nearest = min(placed(touch.first), key=lambda c: (c - side.begins).dot(side.normal))
+    nearest = min(start_corners(touch.first), key=lambda c: (c - side.begins).dot(side.normal))
     return 0.0 <= (nearest - side.begins).dot(along) <= along.dot(along)
 
 
-def _words(first: Outline, second: Outline, touching: str, touched: str) -> Words:
+def _contact_words(first: Outline, second: Outline, touching: str, touched: str) -> Words:
     """pymunk multiplies the frictions of two shapes, and their elasticities."""
     return {
         "between": (touching, touched),
@@ -212,7 +212,7 @@ def _words(first: Outline, second: Outline, touching: str, touched: str) -> Word
     }
 
 
-def _touching(reading: Reading, known: Sequence[Outline], outline: Outline) -> dict[str, str]:
+def _touch_points(reading: Reading, known: Sequence[Outline], outline: Outline) -> dict[str, str]:
     """Returns the words for what of it touches, and with what the names of their contacts end."""
     body, name = outline.shape.body, outline.body
     assert body is not None
@@ -242,15 +242,15 @@ def _on_ground(
     assert body is not None
     if not sides:
         return None
-    side = _before(first, sides)
+    side = _facing_side(first, sides)
     plane, at, named = f"{second.name}_{sides.index(side)}", side.begins, first.name
-    words = _touching(reading, known, first)
+    words = _touch_points(reading, known, first)
     if not turns(body):
         arms = [corner.rotated(body.angle).dot(side.normal) for corner in first.corners]
         at += (first.radius - min(arms)) * side.normal
         plane, words = f"{plane}_of_{first.name}", {str(first.body): ""}
     contacts = {
-        f"{named}_on_{second.name}{end}": _words(first, second, word, f"{GROUND}.{plane}")
+        f"{named}_on_{second.name}{end}": _contact_words(first, second, word, f"{GROUND}.{plane}")
         for word, end in words.items()
     }
     planes = {plane: {"at": tuple(at), "normal": tuple(side.normal)}}
@@ -262,7 +262,7 @@ def _sides(outline: Outline) -> list[Side]:
 
     pymunk has corners counter-clockwise.
     """
-    corners = placed(outline)
+    corners = start_corners(outline)
     sides = list[Side]()
     for p, q in pairwise((*corners, corners[0])):
         normal = (q - p).normalized().rotated(-pi / 2)
@@ -271,7 +271,7 @@ def _sides(outline: Outline) -> list[Side]:
     return sides if len(corners) > 1 else []
 
 
-def placed(outline: Outline) -> list[Vec2d]:
+def start_corners(outline: Outline) -> list[Vec2d]:
     """Where its corners are at the start, in ground axes."""
     body = outline.shape.body
     if outline.body is None or body is None:
@@ -280,7 +280,7 @@ def placed(outline: Outline) -> list[Vec2d]:
     return [centre + corner.rotated(body.angle) for corner in outline.corners]
 
 
-def _before(outline: Outline, sides: list[Side]) -> Side:
+def _facing_side(outline: Outline, sides: list[Side]) -> Side:
     """The side from which the outline is farthest, so that it is before it."""
-    corners = placed(outline)
+    corners = start_corners(outline)
     return max(sides, key=lambda s: min((c - s.begins).dot(s.normal) for c in corners))

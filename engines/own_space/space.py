@@ -17,9 +17,9 @@ from ...cases.trajectory import Trajectory, X, Y
 from ..pymunk.model.contact import tip_radius
 from ..pymunk.settings.settings import SHIPPED_STEP
 from .constraints import read_constraints
-from .meeting import DEEP, beside, depth, first_overlap
+from .meeting import DEEP, depth, first_overlap, past_end_times
 from .reading import Reading, read_bodies, turns
-from .shapes import Outline, Touch, colliding, outlines, placed, shaped, touches
+from .shapes import Outline, Touch, body_shapes, collisions, find_contacts, outlines, start_corners
 
 DURATION, SAMPLES = 1.0, 26
 TOLERANCE = 1e-3  # of the size of the motion, and of 1 rad
@@ -58,7 +58,7 @@ class Read:
             "gravity": tuple(r.space.gravity),
             "points": r.points,
             "planes": dict(chain.from_iterable(touch.planes.items() for touch in met)),
-            "bodies": shaped(r, self.known),
+            "bodies": body_shapes(r, self.known),
             "joints": r.joints,
             "contacts": {name: x for name, x in contacts.items() if name not in self.astray},
             "forces": r.forces,
@@ -84,7 +84,7 @@ class Read:
             name: time
             for pair in self.met
             if (touch := self.pairs[pair])
-            for name, time in beside(scene, motion, touch, size).items()
+            for name, time in past_end_times(scene, motion, touch, size).items()
         }
         first = min(chain(meets.values(), strays.values()), default=never)
         if first < never:
@@ -179,7 +179,7 @@ class Read:
         places += [np.array([point]) for point in fixed]
         for outline in self.known:
             if outline.body:
-                corners = np.array(placed(outline))
+                corners = np.array(start_corners(outline))
                 places += [corners - outline.radius, corners + outline.radius]
         every = np.concatenate(places)
         arms = [sqrt(body.moment / body.mass) for body in self.reading.names if turns(body)]
@@ -187,12 +187,12 @@ class Read:
         return size if size > DEEP * float(np.max(np.abs(every))) else 1.0
 
 
-def read(space: Space) -> Read:
+def read_space(space: Space) -> Read:
     """Returns what is read of a Space."""
     reading = read_bodies(space)
     read_constraints(reading)
     known = outlines(reading)
-    pairs = {pair: touches(reading, known, *pair) for pair in colliding(known, space)}
+    pairs = {pair: find_contacts(reading, known, *pair) for pair in collisions(known, space)}
     touch = list[Pair]()
     for first, second in pairs:
         deep, rounding = depth(first, second)

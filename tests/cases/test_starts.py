@@ -253,7 +253,7 @@ def test_a_joint_decides() -> None:
     blind = otherwise(resolve, "        *scene.joints.values(),\n", "")
     case = thrown(more="  joints: {pin: {pin: [ground.O, ball.P]}}")
     assert "angle" not in case.initial["ball"].given
-    assert "angle" in blind._turned(dict(case.initial), case.scene, {})["ball"].given
+    assert "angle" in blind._with_free_attitudes(dict(case.initial), case.scene, {})["ball"].given
 
 
 @pytest.mark.mutant("a disk's angle starts at 0 where a spring winds by it")
@@ -263,7 +263,7 @@ def test_what_winds_decides() -> None:
         more=f"{AXLE}\n  forces: {{wire: {{torsion: axle, stiffness: 1, rest_angle: 0}}}}"
     )
     assert "angle" not in case.initial["ball"].given
-    assert "angle" in blind._turned(dict(case.initial), case.scene, {})["ball"].given
+    assert "angle" in blind._with_free_attitudes(dict(case.initial), case.scene, {})["ball"].given
 
 
 SPHERE = """\

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from ...fields.kind import WORK
-from ...fields.number import Amount, NumberMistake, fitting
+from ...fields.number import Amount, NumberMistake, check_unit
 from ...mistake import Path, nearest
 from ...scene import Scene
 from ...scene.joint import WORDS
@@ -26,14 +26,14 @@ def _events(parsed: Parsed, scene: Scene, known: Mapping[str, Quantity]) -> Iter
             path = ("events", event, name)
             if name not in known:
                 yield from _unknown(parsed, known, path, name)
-            elif not _marks(scene, known[name]):
+            elif not _marks_event(scene, known[name]):
                 what = "its zero marks no event; take a place, a velocity, a slip or a force"
                 yield path, what
             else:
-                yield from _fitting(path, rule.to, known[name])
+                yield from _check_unit(path, rule.to, known[name])
 
 
-def _marks(scene: Scene, quantity: Quantity) -> bool:
+def _marks_event(scene: Scene, quantity: Quantity) -> bool:
     """Whether something happens at its zero: of an energy that is arbitrary, drift is numerical."""
     drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
     drift |= quantity.field == "slip" and quantity.part in scene.constraints
@@ -49,13 +49,13 @@ def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
         yield from _quantity(parsed, known, ("allow", name), name, bound)
     for i, name in enumerate(file.stays):
         if name not in file.allow:
-            yield from _allowed(parsed, known, ("stays", i), name)
+            yield from _check_allowed(parsed, known, ("stays", i), name)
         elif name in known and known[name].kind not in ("coordinate", "velocity"):
             yield ("stays", i), f"{name!r} is no place and no velocity, and may stay as it is"
     for way, reached in file.reach.items():
         for name, bound in reached.items():
             path = ("reach", way, name)
-            yield from _allowed(parsed, known, path, name, bound)
+            yield from _check_allowed(parsed, known, path, name, bound)
             allow = file.allow.get(name)
             if allow is not None and bound.value > allow.value:
                 yield path, f"{bound.value:g} is above its `allow`, {allow.value:g}"
@@ -66,7 +66,7 @@ def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
             for size in (deviation.limit, *(deviation.by or ())):
                 if size is None:
                     continue
-                yield from _allowed(parsed, known, path, name, size)
+                yield from _check_allowed(parsed, known, path, name, size)
                 if allow is not None and size.value <= allow.value:
                     yield path, f"{size.value:g} is not above its `allow`, {allow.value:g}"
 
@@ -81,17 +81,17 @@ def _quantity(
     if name not in known:
         yield from _unknown(parsed, known, path, name)
     elif bound is not None:
-        yield from _fitting(path, bound, known[name])
+        yield from _check_unit(path, bound, known[name])
 
 
-def _fitting(path: Path, given: Amount, quantity: Quantity) -> Iterator[Finding]:
+def _check_unit(path: Path, given: Amount, quantity: Quantity) -> Iterator[Finding]:
     try:
-        fitting(given, quantity.unit)
+        check_unit(given, quantity.unit)
     except NumberMistake as mistake:
         yield path, str(mistake)
 
 
-def _allowed(
+def _check_allowed(
     parsed: Parsed,
     known: Mapping[str, Quantity],
     path: Path,
@@ -100,7 +100,7 @@ def _allowed(
 ) -> Iterator[Finding]:
     if name in parsed.file.allow or ("allow", name) in parsed.broken:
         yield from _quantity(parsed, known, path, name, bound)
-    elif not _hidden(parsed, name):
+    elif not _may_exist(parsed, name):
         yield path, f"{name!r} is not in `allow`{nearest(name, parsed.file.allow)}"
 
 
@@ -108,7 +108,7 @@ def _unknown(
     parsed: Parsed, known: Mapping[str, Quantity], path: Path, name: str
 ) -> Iterator[Finding]:
     part, _, field = name.rpartition(".")
-    if _hidden(parsed, name):
+    if _may_exist(parsed, name):
         return
     if field in EVENT_FIELDS and path[0] != "events":
         events = parsed.file.events
@@ -118,7 +118,7 @@ def _unknown(
         yield path, f"'{at.event}.{at.quantity}' has no before and no after"
     elif field in ("friction", "slip") and f"{part}.fx" in known:  # a joint without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
-    elif _undriven(known, part, field) or (field in WORK and part in parsed.file.scene.joints):
+    elif _needs_drive(known, part, field) or (field in WORK and part in parsed.file.scene.joints):
         yield path, f"no `drive` prescribes the rate, so no {name!r}"
     elif field in WORDS and f"{part}.gap" in known and part in parsed.file.scene.joints:
         yield path, _no_freedom(known, part, field)
@@ -169,7 +169,7 @@ def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:
     return f"{part!r} has no {field}: {has}"
 
 
-def _hidden(parsed: Parsed, name: str) -> bool:
+def _may_exist(parsed: Parsed, name: str) -> bool:
     """Whether the part or event that the quantity is of may be there, but is unsound."""
     part, field = name.split(".")[0], name.split(".")[-1]
     event = at_event(name, parsed.file.events)
@@ -184,7 +184,7 @@ def _hidden(parsed: Parsed, name: str) -> bool:
     )
 
 
-def _undriven(known: Mapping[str, Quantity], part: str, field: str) -> bool:
+def _needs_drive(known: Mapping[str, Quantity], part: str, field: str) -> bool:
     """Whether a joint would have this quantity if its freedom were driven."""
     coordinate, _, effort = field.rpartition("_")
     coordinate = coordinate or "angle"

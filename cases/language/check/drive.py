@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from ...fields.kind import Fields
-from ...fields.number import NumberMistake, fitting, per_second
+from ...fields.number import NumberMistake, check_unit, per_second
 from ...fields.signal import Signal
 from ...mistake import Path, nearest
 from ...scene import Joint, Scene
@@ -34,10 +34,10 @@ def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         if freedom.kind == "turn" and len(joint.turns) > 2:
             why = "their middle axis is fixed in neither part; put a body between, on a joint more"
             yield path, f"{part!r} leaves three turns, and of these none can be driven: {why}"
-        yield from _fits(path, drive, f"{freedom.unit}/s")
+        yield from _check_units(path, drive, f"{freedom.unit}/s")
     for name, start in parsed.file.initial.items():
         for key, given in start.given.items():
-            yield from _agrees(("initial", name, key), given, scene.drives.get(f"{name}.{key}"))
+            yield from _check_rate(("initial", name, key), given, scene.drives.get(f"{name}.{key}"))
 
 
 def _no_joint(parsed: Parsed, scene: Scene, path: Path, part: str) -> Iterator[Finding]:
@@ -46,16 +46,16 @@ def _no_joint(parsed: Parsed, scene: Scene, path: Path, part: str) -> Iterator[F
         yield path, f"unknown joint {part!r}{nearest(part, parsed.names('joints', scene.joints))}"
 
 
-def _fits(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
+def _check_units(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
     """Whether each number of the law can be measured in the unit of the rate, per s, per s² …"""
     for at, amount, times in drive.amounts:
         try:
-            fitting(amount, per_second(unit, times))
+            check_unit(amount, per_second(unit, times))
         except NumberMistake as mistake:
             yield (*path, *at), str(mistake)
 
 
-def _agrees(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]:
+def _check_rate(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]:
     """A rate that is prescribed need not be given; what is given has to agree."""
     if drive is not None and abs(given - drive.at_start()[0]) > TYPED * abs(given):
         yield path, f"is {given:g}, but its drive begins with {drive.at_start()[0]:g}"

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...mistake import Path, listed, nearest
+from ...mistake import Path, list_hint, nearest
 from ...scene import FLOOR, GROUND, Edge, Force, Joint, Scene
 from ...scene.body import Body
 from ...scene.point import Anchor
@@ -32,34 +32,34 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "incline"), f"cannot stand beside {own}"
     if not spec.bodies and not parsed.lacks("scene"):
         yield ("scene", "bodies"), "should not be empty"
-    for path, before in twice(parsed):
+    for path, before in duplicate_names(parsed):
         yield path, f"{path[-1]!r} already names one of the {before}"
     yield from _points(parsed)
     for name, joint in scene.joints.items():
-        yield from _refers(parsed, scene, ("scene", "joints", name, joint.word), joint)
+        yield from _check_points(parsed, scene, ("scene", "joints", name, joint.word), joint)
     for name, edge in scene.constraints.items():
         path = ("scene", "constraints", name, edge.word)
-        yield from _refers(parsed, scene, path, edge)
+        yield from _check_points(parsed, scene, path, edge)
         if what := edge.unfit(scene.bodies.get(edge.at.body)):
             yield path, what
     for name, force in scene.forces.items():
         path = ("scene", "forces", name, force.word)
-        yield from _refers(parsed, scene, path, force)
+        yield from _check_points(parsed, scene, path, force)
         if what := force.unfit(scene.bodies):
             yield path, what
         if force.about is not None:
-            yield from about(parsed, scene, path, force)
+            yield from check_joint(parsed, scene, path, force)
     if scene.frame.dimension == 3:
         yield from turns_freely(parsed, scene)
     else:
-        yield from rubbing(scene)
-        yield from _views(parsed.file.scene, scene)
+        yield from check_dry_pins(scene)
+        yield from _check_seen_from(parsed.file.scene, scene)
     yield from contacts(parsed, scene)
     yield from starts(parsed, scene)
     yield from drives(parsed, scene)
 
 
-def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
+def _check_seen_from(spec: Spec, scene: Scene) -> Iterator[Finding]:
     """Seen from above there is a slope, and no floor that could be stood on."""
     if spec.seen is None:
         return
@@ -69,7 +69,7 @@ def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "seen"), "has no floor for contacts: the floor is a line seen from the side"
 
 
-def twice(parsed: Parsed) -> Iterator[tuple[Path, str]]:
+def duplicate_names(parsed: Parsed) -> Iterator[tuple[Path, str]]:
     """Names given twice: where the name stands again, and the section before."""
     spec = parsed.file.scene
     places: list[Path] = [("scene", s, name) for s in NAMED for name in getattr(spec, s)]
@@ -92,7 +92,7 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 
-def _refers(
+def _check_points(
     parsed: Parsed, scene: Scene, path: Path, element: Joint | Edge | Force
 ) -> Iterator[Finding]:
     """The points it refers to, one under its word or a list of two."""
@@ -107,7 +107,7 @@ def _refers(
 # Checks of what acts about or along a joint, or rubs in it: its parts may turn, or may shift.
 
 
-def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
+def check_joint(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
     """Yields what is wrong with the joint's name, the joint, or the turn that is meant."""
     name = force.about
     assert name is not None
@@ -133,17 +133,17 @@ def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Fi
         return
     if force.turn:
         yield path, f"in the plane {name!r} has one turn without a name: write {name!r}"
-    yield from turning(scene, path, joint)
+    yield from unturnable_parts(scene, path, joint)
 
 
-def rubbing(scene: Scene) -> Iterator[Finding]:
+def check_dry_pins(scene: Scene) -> Iterator[Finding]:
     """Dry friction of a pin brakes a turn."""
     for name, joint in scene.joints.items():
         if joint.dry_friction is not None and not joint.shifts:
-            yield from turning(scene, ("scene", "joints", name, "dry_friction"), joint)
+            yield from unturnable_parts(scene, ("scene", "joints", name, "dry_friction"), joint)
 
 
-def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
+def unturnable_parts(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
     """Parts of the joint that cannot turn."""
     for at in joint.refers():
         if at.body in scene.bodies and not scene.bodies[at.body].turns:
@@ -170,7 +170,7 @@ def no_turn(joint: Any, force: Force) -> str | None:
         turn = f"{name}.{found.rates[freedom].name}"
         return f"{freedom!r} is a rate; the turn is {turn!r}"
     if freedom in [f.name for f in found.shifts]:
-        return f"{freedom!r} slides, and nothing turns there{listed(written)}"
+        return f"{freedom!r} slides, and nothing turns there{list_hint(written)}"
     if freedom and freedom not in turns:
         return f"{name!r} has no turn {freedom!r}{nearest(f'{name}.{freedom}', written)}"
     return None

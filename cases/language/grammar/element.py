@@ -71,7 +71,7 @@ def element(
     if "signal" in fields:
         base, fields = InTime, fields | signal_fields(title, fields.pop("signal")[0], axes)
     model_fields: dict[str, Any] = {word: (refers, ...), **fields}
-    model = create_model(title, __base__=base, __doc__=_said(makes), **model_fields)
+    model = create_model(title, __base__=base, __doc__=_summary(makes), **model_fields)
     model.word, model.makes = word, makes
     return model
 
@@ -82,10 +82,10 @@ def numbers(
     """The model of a map with all that `makes` asks for, but for `without`."""
     fields: dict[str, Any] = {k: field for k, field in keys(makes).items() if k not in without}
     name = prefix + makes.__name__.capitalize()
-    return create_model(name, __base__=Part, __doc__=_said(makes), **fields)
+    return create_model(name, __base__=Part, __doc__=_summary(makes), **fields)
 
 
-def _said(makes: Callable[..., Any]) -> str:
+def _summary(makes: Callable[..., Any]) -> str:
     return (makes.__doc__ or "").partition("\n")[0]
 
 
