@@ -91,11 +91,11 @@ class Known(Mapping[str, tuple[str, ...] | None]):
 @cache
 def _found() -> Mapping[str, EntryPoint]:
     """By names that a case can write; of two with one name, what Python would import first."""
-    found: dict[str, EntryPoint] = {}
+    points: dict[str, EntryPoint] = {}
     for point in entry_points(group=GROUP):
         if point.name.isidentifier() and point.name not in TAKEN:
-            found.setdefault(point.name, point)
-    return found
+            points.setdefault(point.name, point)
+    return points
 
 
 @cache

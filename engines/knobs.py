@@ -8,6 +8,9 @@ Options = Mapping[str, Any]
 """As in a file of settings, under the engine's name: plain data."""
 
 
+Kind = Literal["option", "protocol", "ours", "bundle"]
+
+
 @dataclass(frozen=True)
 class Value:
     """One value of a knob: how a sentence calls it, and the options that it is."""
@@ -30,20 +33,17 @@ class Knob:
     name: str
     values: tuple[Value, ...]
     tuned: Value | None = None
-    kind: Literal["option", "protocol", "ours", "bundle"] = "option"
+    kind: Kind = "option"
 
 
 def merged(*options: Options) -> dict[str, Any]:
     """One mapping of all options; where two have the same name the later wins, in groups too."""
-    found: dict[str, Any] = {}
+    both: dict[str, Any] = {}
     for some in options:
         for name, value in some.items():
-            before = found.get(name)
-            if isinstance(before, Mapping) and isinstance(value, Mapping):
-                found[name] = merged(before, value)
-            else:
-                found[name] = value
-    return found
+            inner = [both.get(name), value]
+            both[name] = merged(*inner) if all(isinstance(x, Mapping) for x in inner) else value
+    return both
 
 
 def short_value(value: Any) -> str:

@@ -50,18 +50,18 @@ def _torsion_damper(force: TorsionDamper, angle: float, rate: float) -> float:
 
 def one_number(scene: Scene) -> str:
     """The friction that an engine with one number leaves out, in words; an empty text if none."""
-    told = [
+    parts = [
         f"{contact.name} by its kinetic {contact.kinetic:g} (static {contact.static:g})"
         for contact in (*scene.contacts.values(), *scene.pairs.values())
         if contact.switches and contact.static != contact.kinetic
     ]
-    told += [
+    parts += [
         f"{joint.name}, where there are several"
         for joint in scene.joints.values()
         if (dry := joint.dry_friction) is not None
         if len({*astuple(dry.static), *astuple(dry.kinetic)}) > 1 or dry.smooth is not None
     ]
-    return f"one number for friction: {', '.join(told)}" if told else ""
+    return f"one number for friction: {', '.join(parts)}" if parts else ""
 
 
 TENSIONS: dict[type[Line], Callable[[Any, float, float], float]] = {

@@ -7,6 +7,7 @@ box, for nobody has a point.
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ..cases.scene import CENTER, Anchor, Body, Scene
 from ..cases.scene.frame import PLANE
 from ..cases.scene.shape import CORNERS, block
 from ..cases.trajectory import ANGLE, OMEGA, Trajectory
-from .engine import Start
+from .engine import Plan, Start
 
 PLAIN, CUBE, CYLINDER = SHAPES = ("plain", "cube", "cylinder")
 """Values of the option `shapes`: a particle is a flat box, or a cube, of which fewer corners carry
@@ -60,14 +61,23 @@ def with_box(scene: Scene, start: Start, shape: str) -> tuple[Scene, Start]:
     (ux, uy), (nx, ny) = contact.plane.along, contact.plane.normal
     place = x + height / 2 * nx, y + height / 2 * ny
     contacts = {contact.name: replace(contact, at=Anchor(body.name, FOOT))}
-    found = replace(scene, bodies={body.name: box}, contacts=contacts)
-    return found, {body.name: (*place, math.atan2(uy, ux) + 0.0, vx, vy, 0.0)}
+    boxed = replace(scene, bodies={body.name: box}, contacts=contacts)
+    return boxed, {body.name: (*place, math.atan2(uy, ux) + 0.0, vx, vy, 0.0)}
 
 
-def known_of(scene: Scene, found: Mapping[str, float]) -> dict[str, float]:
+def as_built(plan: Plan, words: str, withheld: Mapping[str, str]) -> Plan:
+    """The plan with what is built, in words, and what of that is not read."""
+    return replace(plan, protocol=partial(_said, words), withheld={**plan.withheld, **withheld})
+
+
+def _said(words: str, step: float) -> str:
+    return words
+
+
+def known_of(scene: Scene, numbers: Mapping[str, float]) -> dict[str, float]:
     """The numbers measured of `with_box`, less the moment of inertia that a particle has not."""
     points = [f"{name}.inertia" for name, body in scene.bodies.items() if not body.turns]
-    return {name: number for name, number in found.items() if name not in points}
+    return {name: number for name, number in numbers.items() if name not in points}
 
 
 def without_box(scene: Scene, motion: Trajectory, shape: str) -> Trajectory:

@@ -57,8 +57,8 @@ def _scrape(force: Drag, edge: tuple[float, float]) -> Law:
         _, _, vx, vy, angle = points[0]
         cos, sin = math.cos(angle), math.sin(angle)
         ux, uy = cos * a - sin * b, sin * a + cos * b
-        one, two = _braked(d, ux * vx + uy * vy, power), _braked(e, ux * vy - uy * vx, power)
-        return ((one * ux - two * uy, one * uy + two * ux),)
+        along, across = _braked(d, ux * vx + uy * vy, power), _braked(e, ux * vy - uy * vx, power)
+        return ((along * ux - across * uy, along * uy + across * ux),)
 
     return law
 

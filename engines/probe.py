@@ -114,8 +114,8 @@ def end_with_parent() -> None:
 def unsound(engine: Any, name: str, setting: str) -> str:
     """The first fault in the engine's description, in words; an empty text if there is none."""
     for word, wanted in (("name", name), ("setting", setting)):
-        if (found := getattr(engine, word)) != wanted or not isinstance(found, str):
-            return f"its {word} should be {wanted!r}, is {_short(found)}"
+        if (given := getattr(engine, word)) != wanted or not isinstance(given, str):
+            return f"its {word} should be {wanted!r}, is {_short(given)}"
     version, step = engine.version, engine.own_step
     if not (
         isinstance(version, str) and version.isprintable() and 0 < len(version.strip()) <= LETTERS
@@ -176,8 +176,8 @@ def _handlers() -> dict[int, Any]:
     if threading.current_thread() is not threading.main_thread():
         return {}
     numbers = [getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
-    found = {number: signal.getsignal(number) for number in numbers if number is not None}
-    return {number: handler for number, handler in found.items() if handler is not None}
+    handlers = {number: signal.getsignal(number) for number in numbers if number is not None}
+    return {number: handler for number, handler in handlers.items() if handler is not None}
 
 
 def _interrupted(error: BaseException | None) -> bool:
@@ -227,8 +227,8 @@ def _how(code: int | None) -> str:
 
 def _short(value: object, say: Callable[[object], str] = repr) -> str:
     try:
-        said = say(value)
+        text = say(value)
     except BaseException as error:
         return f"what raises {type(error).__name__}"
-    said = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in said[: 2 * LETTERS])
-    return said if len(said) < 2 * LETTERS else f"{said}…"
+    text = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text[: 2 * LETTERS])
+    return text if len(text) < 2 * LETTERS else f"{text}…"

@@ -33,8 +33,8 @@ def in_time(signal: Signal) -> Callable[[float], tuple[float, ...]]:
     if signal.law == "constant":
         return lambda t: amplitude
     if len(amplitude) == 1:
-        (one,) = amplitude
-        return lambda t: (one * size(t),)
+        (first,) = amplitude
+        return lambda t: (first * size(t),)
     if len(amplitude) == 2:
         x, y = amplitude
 

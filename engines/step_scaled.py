@@ -28,10 +28,10 @@ def tied(value: Any) -> bool:
 @lru_cache(maxsize=1024)
 def _read(text: str) -> Callable[[float], float] | None:
     """The function of h that a text says; None: it says none. Nothing is evaluated."""
-    found = _FORM.fullmatch(text.strip())
-    if found is None or abs(float(found[1])) > _MOST:
+    match = _FORM.fullmatch(text.strip())
+    if match is None or abs(float(match[1])) > _MOST:
         return None
-    factor, power = float(found[1]), found[2].replace(" ", "")
+    factor, power = float(match[1]), match[2].replace(" ", "")
     return {
         "h": lambda h: factor * h,
         "/h": lambda h: factor / h,

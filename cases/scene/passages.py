@@ -1,4 +1,4 @@
-"""Where a smooth piece of the reference passes zero from above, as the top of a flight does."""
+"""Smooth pieces of the reference, and where one passes zero from above, as the top of a flight."""
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..trajectory import Array, Trajectory
+from . import Scene
+from .observe import observe
+from .quantity import table
 
 AROUND = 8  # steps in a curve: of seventh degree, as the integrator's eighth order
 ROOT = 1e-15  # s: what the root-finder is asked for
@@ -15,6 +18,7 @@ MIRRORED = 0.5  # of a fold's size: so well a curve goes on to it; one with no f
 LOCATED = 1e-12  # s: how well an extremum between two steps is found
 FINE = 1e-13  # of the time between two steps: so well a root is found where that is little
 FLAT = 1e-10  # of it: so well an extremum
+STILL = 1e-9  # of the largest value of its kind: what rounding leaves of a zero of the reference
 
 Curve = Callable[[float], float]
 """t → u."""
@@ -27,113 +31,77 @@ def lasting(record: Trajectory) -> list[NDArray[np.int64]]:
     return [rows for rows in phases if record.times[rows[-1]] > record.times[rows[0]]]
 
 
-def passages(
-    times: Array, u: Array, still: float, corners: Sequence[float] = ()
-) -> Iterator[float]:
-    """Times [s] at which u (N,) falls through zero, as `passing` finds them."""
-    return (t for t, _ in passing(times, u, still, corners))
-
-
-def passing(
-    times: Array, u: Array, still: float, corners: Sequence[float] = ()
-) -> Iterator[tuple[float, Curve]]:
-    """When [s] u (N,) falls through zero between rows that are above and below `still`, and by
-    which curve.
-
-    A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
-    hump above it, may hide between rows: the curve's extremum there is one more row. corners [s]:
-    rows at which u may bend or jump, and no curve goes through both sides of one; what jumps across
-    zero there does not fall through it.
-    """
-    from scipy.optimize import brentq
-
-    for part in _unbroken(times, u, corners):
-        times, u, bends, rows = _rows(*part, still, corners)
-        clear = [row for row in rows if abs(row[1]) > still]
-        for (before, above, i), (after, below, k) in pairwise(clear):
-            if above > 0.0 > below:
-                hidden = after != times[k]  # it is told by a curve, and falls by this one
-                curve = _curve(times, u, k if hidden else i, bends)
-                yield float(brentq(curve, before, after, xtol=_fine(before, after))), curve
-
-
-def touches(times: Array, u: Array, still: float, corners: Sequence[float] = ()) -> Iterator[float]:
-    """Times [s] at which u (N,) comes as near to zero as `still` and turns back, through it or not.
-
-    Rounding says which.
-    """
-    for part in _unbroken(times, u, corners):
-        *_, rows = _rows(*part, still, corners)
-        clear = [k for k, row in enumerate(rows) if abs(row[1]) > still]
-        for i, k in pairwise(clear):
-            if k > i + 1 and rows[i][1] * rows[k][1] > 0.0:
-                yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0]
-
-
 def smooth(record: Trajectory, corners: Sequence[float]) -> Iterator[NDArray[np.int64]]:
     """Yields the rows between two corners in a phase, from the first of them on."""
     for rows in lasting(record):
-        yield from np.split(rows, bent(record.times[rows], corners))
+        yield from np.split(rows, _bends(record.times[rows], corners))
+
+
+def pieces(
+    record: Trajectory, u: Array, corners: Sequence[float]
+) -> Iterator[tuple[int, Array, Array]]:
+    """Yields the phase, times and u of each smooth piece of a record, whose ends two may share.
+
+    A row at a corner has what u is from then on; where it jumps there, those before it tell where
+    it was going.
+    """
+    assert record.phase is not None
+    for rows in lasting(record):
+        times, kept = np.unique(record.times[rows], return_index=True)
+        values, bends = u[rows[kept]], _bends(times, corners)
+        for begin, end in pairwise([0, *bends, len(times) - 1]):
+            t, part = times[begin : end + 1], values[begin : end + 1].copy()
+            if end in bends and len(t) > AROUND // 2:
+                came = polynomial(t[-1 - AROUND : -1], part[-1 - AROUND : -1])(float(t[-1]))
+                if abs(came - part[-1]) > JUMP * np.max(np.abs(values)):
+                    part[-1] = came
+            yield int(record.phase[rows[0]]), t, part
+
+
+def _bends(times: Array, corners: Sequence[float]) -> list[int]:
+    """The rows at corners, but the first and the last; whatever steps to them ends there."""
+    inside = [corner for corner in corners if times[0] < corner < times[-1]]
+    rows = {int(np.argmin(np.abs(times - corner))) for corner in inside}
+    return sorted(rows - {0, len(times) - 1})
+
+
+def passing(times: Array, u: Array, still: float) -> Iterator[tuple[float, Curve | None]]:
+    """When [s] a smooth u (N,) falls through zero between rows that are above and below `still`,
+    and by which curve; None where it only comes as near to zero as that and turns back.
+
+    A row at zero lies between the two; what ends at zero is the boundary's. A dip below zero, or a
+    hump above it, may hide between rows: the curve's extremum there is one more row.
+    """
+    from scipy.optimize import brentq
+
+    numbered = zip(times.tolist(), u.tolist(), range(len(u)), strict=True)
+    rows = sorted([*numbered, *_hidden(times, u, still)])
+    clear = [k for k, row in enumerate(rows) if abs(row[1]) > still]
+    for i, k in pairwise(clear):
+        (before, above, row), (after, below, other) = rows[i], rows[k]
+        if above > 0.0 > below:
+            hidden = after != times[other]  # it is told by a curve, and falls by this one
+            curve = _curve(times, u, other if hidden else row)
+            yield float(brentq(curve, before, after, xtol=_fine(before, after))), curve
+        elif k > i + 1 and above * below > 0.0:
+            yield min(rows[i + 1 : k], key=lambda row: abs(row[1]))[0], None
 
 
 def dips(times: Array, u: Array) -> Iterator[tuple[float, float]]:
     """When [s] u (N,), positive in its smooth rows, is zero or less between two, and how much."""
     times, kept = np.unique(times, return_index=True)
-    return ((t, low) for t, low, _ in _hidden(times, u[kept], (), 0.0))
+    return ((t, low) for t, low, _ in _hidden(times, u[kept], 0.0))
 
 
-def _rows(
-    times: Array, u: Array, still: float, corners: Sequence[float]
-) -> tuple[Array, Array, list[int], list[tuple[float, float, int]]]:
-    """The times, u there, the bends, and the rows: time, u and number, with what hides."""
-    bends = bent(times, corners)
-    rows = [*zip(times.tolist(), u.tolist(), range(len(u)), strict=True)]
-    return times, u, bends, sorted([*rows, *_hidden(times, u, bends, still)])
+def _curve(times: Array, u: Array, i: int) -> Curve:
+    """Through the rows around i and the next."""
+    first = min(max(0, i - AROUND // 2 + 1), max(0, len(u) - AROUND))
+    return polynomial(times[first : first + AROUND], u[first : first + AROUND])
 
 
-def _unbroken(times: Array, u: Array, corners: Sequence[float]) -> Iterator[tuple[Array, Array]]:
-    """Yields the times, each once, and u between one jump at a corner and the next.
-
-    A row at a corner has what u is from then on; those before it tell where it was going, and that
-    is one more row.
-    """
-    times, kept = np.unique(times, return_index=True)
-    u, begin = u[kept], 0
-    bends = bent(times, corners)
-    for before, k in pairwise([0, *bends]):
-        if k - before < AROUND // 2:
-            continue
-        came = _curve(times[:k], u[:k], k - 1, [before])(float(times[k]))
-        if abs(came - u[k]) > JUMP * np.max(np.abs(u)):
-            yield np.append(times[begin:k], times[k]), np.append(u[begin:k], came)
-            begin = k
-    yield times[begin:], u[begin:]
-
-
-def leaps(times: Array, u: Array, corners: Sequence[float]) -> Iterator[tuple[float, float, float]]:
-    """When [s] u (N,) jumps at a corner, where it came to, and from where it goes on."""
-    for (before, came), (_, goes) in pairwise(_unbroken(times, u, corners)):
-        yield float(before[-1]), float(came[-1]), float(goes[0])
-
-
-def bent(times: Array, corners: Sequence[float]) -> list[int]:
-    """The rows at corners; whatever steps to them ends there."""
-    inside = [corner for corner in corners if times[0] < corner < times[-1]]
-    return sorted({int(np.argmin(np.abs(times - corner))) for corner in inside})
-
-
-def _curve(times: Array, u: Array, i: int, bends: Sequence[int]) -> Curve:
-    """Through the rows around i and the next, none of them beyond a bend."""
-    begin = max((k for k in bends if k <= i), default=0)
-    end = 1 + min((k for k in bends if k > i), default=len(u) - 1)
-    first = min(max(begin, i - AROUND // 2 + 1), max(begin, end - AROUND))
-    rows = slice(first, min(first + AROUND, end))
-    return polynomial(times[rows], u[rows])
-
-
-def _fine(one: float, other: float) -> float:
+def _fine(begin: float, end: float) -> float:
     """How well [s] a root between two times is asked for."""
-    return min(ROOT, FINE * abs(other - one))
+    return min(ROOT, FINE * abs(end - begin))
 
 
 def polynomial(x: Array, y: Array) -> Curve:
@@ -155,55 +123,66 @@ def polynomial(x: Array, y: Array) -> Curve:
     return at
 
 
-def _hidden(
-    times: Array, u: Array, bends: Sequence[int], still: float
-) -> Iterator[tuple[float, float, int]]:
+def _hidden(times: Array, u: Array, still: float) -> Iterator[tuple[float, float, int]]:
     """Extrema at zero or beyond, beside a row as near to it as it differs from the others."""
     from scipy.optimize import minimize_scalar
 
-    signs = np.where(u[1:-1] > 0.0, 1.0, -1.0)
-    left, here, right = signs * u[:-2], signs * u[1:-1], signs * u[2:]
+    signs = np.where(u > 0.0, 1.0, -1.0)
+    here = signs * u
+    left = np.append(np.inf, signs[1:] * u[:-1])
+    right = np.append(signs[:-1] * u[1:], np.inf)
     near = (here > 0.0) & (here <= np.minimum(left, right))
     near &= here <= np.maximum(left, right) - here
-    for i in (np.flatnonzero(near) + 1).tolist():
-        sides = ((i - 1, i), (i, i + 1)) if i in bends else ((i - 1, i + 1),)
-        if i not in bends and (bend := _mirrored(times, signs[i - 1] * u, i, bends)) is not None:
-            yield bend, 0.0, i
+    for i in np.flatnonzero(near).tolist():
+        sign = float(signs[i])
+        if (turn := _mirrored(times, sign * u, i)) is not None:
+            yield turn, 0.0, i
             continue
-        for begin, end in sides:
-            k = begin if i in bends else i
-            sign, curve = float(signs[i - 1]), _curve(times, u, k, bends)
-            turn = minimize_scalar(
-                lambda t, sign=sign, curve=curve: sign * curve(t),
-                bounds=(times[begin], times[end]),
-                method="bounded",
-                options={"xatol": min(LOCATED, FLAT * float(times[end] - times[begin]))},
-            )
-            if turn.fun <= still:
-                yield float(turn.x), float(sign * turn.fun), k
+        curve = _curve(times, u, i)
+        least = minimize_scalar(
+            lambda t, sign=sign, curve=curve: sign * curve(t),
+            bounds=(begin := times[max(i - 1, 0)], end := times[min(i + 1, len(u) - 1)]),
+            method="bounded",
+            options={"xatol": min(LOCATED, FLAT * float(end - begin))},
+        )
+        if least.fun <= still:
+            yield float(least.x), float(sign * least.fun), i
 
 
-def _mirrored(times: Array, u: Array, i: int, bends: Sequence[int]) -> float | None:
+def _mirrored(times: Array, u: Array, i: int) -> float | None:
     """When [s] u (N,) comes to zero beside row i and turns back at once: the size of what passes.
 
     A curve through the rows on one side then goes on below zero, as far as the row beyond is above.
     """
     from scipy.optimize import brentq
 
-    begin = max((k for k in bends if k <= i), default=0)
-    end = 1 + min((k for k in bends if k > i), default=len(u) - 1)
-    found: list[tuple[float, float]] = []
+    turns: list[tuple[float, float]] = []
     for last, beyond in ((i, i + 1), (i - 1, i), (i, i - 1), (i + 1, i)):
-        if beyond > last:
-            rows = slice(max(begin, last + 1 - AROUND), last + 1)
-        else:
-            rows = slice(last, min(end, last + AROUND))
-        if len(u[rows]) < AROUND // 2 or not begin <= beyond < end:
+        rows = slice(max(0, last + 1 - AROUND), last + 1)
+        if beyond < last:
+            rows = slice(last, last + AROUND)
+        if len(u[rows]) < AROUND // 2 or not 0 <= beyond < len(u):
             continue
         curve = polynomial(times[rows], u[rows])
         on = curve(float(times[beyond]))
         both = min(u[last], u[beyond]) > 0.0 > on
         if both and (off := abs(on / u[beyond] + 1.0)) < MIRRORED:
             xtol = _fine(float(times[last]), float(times[beyond]))
-            found.append((off, float(brentq(curve, times[last], times[beyond], xtol=xtol))))
-    return min(found)[1] if found else None  # a curve with one row of the other side tells worse
+            turns.append((off, float(brentq(curve, times[last], times[beyond], xtol=xtol))))
+    return min(turns)[1] if turns else None  # a curve with one row of the other side tells worse
+
+
+def still(scene: Scene, record: Trajectory, name: str) -> float:
+    """The bound below which values of a quantity of the reference are zero, in its unit."""
+    u = observe(scene, record, name)
+    return STILL * max(float(np.max(np.abs(u))), _peers(scene, record, name))
+
+
+def _peers(scene: Scene, record: Trajectory, name: str) -> float:
+    """The largest of all places, rates or forces of the scene: what trembles is small beside it."""
+    quantity = table(scene)[name]
+    columns = scene.frame.alike(quantity.unit)
+    peers = [states[:, columns] for states in record.states.values()]
+    if quantity.kind == "force":
+        peers += list(record.reactions.values())
+    return max((float(np.max(np.abs(x), initial=0.0)) for x in peers), default=0.0)

@@ -9,7 +9,6 @@ from typing import Any, ClassVar
 import mujoco
 
 from ...cases.scene import Scene
-from ...cases.scene.frame import PLANE
 from ...cases.trajectory import Array, Trajectory
 from ..engine import Cost, Plan, Realised, Refusal, Shape, Start
 from ..heading import heading
@@ -23,7 +22,6 @@ from .adapter.refuse import not_native, unbuildable, uncompilable
 from .adapter.run import simulate
 from .model.contact import closed, recipes, worth
 from .model.drive import controls
-from .model.force import BY_ITSELF
 from .model.number_text import attributes, of_one
 from .model.planes import met
 from .model.rods import of_scene, with_rods
@@ -31,10 +29,9 @@ from .model.scene import mjcf
 from .model.script import commented, control_script, drawn
 from .read.measure import measured
 from .settings import options, settings
-from .settings.groups import groups
 from .settings.knobs import STEPS, cost, knobs
+from .settings.options import as_options, unfit
 from .settings.snippet import option_notes, snippet
-from .settings.user_options import as_options, unfit
 
 
 @dataclass(frozen=True)
@@ -102,16 +99,12 @@ class MuJoCo:
         else:
             why = {"because": settings.GUIDE} if self._recommended else {}
             numbers = partial(settings.with_own, self.options, scene, start, **why)
-        found = plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
-        return plain_shapes.planned(found, scene, start, self._shape) if self._shape else found
+        decided = plan(scene, start, realised, numbers, settles=self._settles, tuned=self._tuned)
+        return plain_shapes.planned(decided, scene, start, self._shape) if self._shape else decided
 
     def knobs(self, scene: Scene, start: Start) -> list[Knob]:
         """See `Tunable`."""
-        scene, start = self._built(scene, start)
-        bundles = {word: recipes(scene)[word](scene) for word in worth(scene)}
-        best, lies = settings.best(scene, start), closed(scene, start)
-        rubs = any(contact.friction for contact in met(scene))
-        return knobs(best, groups(scene), bundles, lies=lies, rubs=rubs)
+        return knobs(*self._built(scene, start))
 
     def recipe(self, scene: Scene, start: Start) -> Options:
         """See `Tunable`."""
@@ -150,13 +143,7 @@ class MuJoCo:
             scene, start = with_box(scene, start, shape)
         scene, start = with_rods(scene, start)
         with_own = partial(settings.with_own, scene=scene, start=start, tied_to=step)
-        touches, plane = bool(worth(scene)), scene.frame is PLANE
-        timed = any(law.law not in BY_ITSELF for law in scene.laws())
-        rods = [name for name in scene.bodies if name not in bodies]
-        drives = sorted({quantity.partition(".")[0] for quantity in scene.drives})
-        notes = option_notes(
-            options, contacts=touches, plane=plane, timed=timed, rods=rods, drives=drives
-        )
+        notes = option_notes(options, scene, [name for name in scene.bodies if name not in bodies])
         frictions = {contact.name: contact.friction for contact in met(scene)}
         return snippet(
             with_own(options), with_own({}), step, notes, frictions=frictions, points=points
@@ -179,8 +166,8 @@ class MuJoCo:
         built, begun = with_rods(scene, start)
         model, data = compiled(built, begun, NOMINAL, self._plan(built, begun))
         bars = built.bodies.keys() - scene.bodies
-        found = measured(built, model, data)
-        return {name: x for name, x in found.items() if name.partition(".")[0] not in bars}
+        numbers = measured(built, model, data)
+        return {name: x for name, x in numbers.items() if name.partition(".")[0] not in bars}
 
     def answer(
         self, scene: Scene, start: Start, states: Mapping[str, Array], wanted: Sequence[str]
@@ -240,7 +227,7 @@ class MuJoCo:
             return plain_shapes.run(scene, start, times, self._shape, text, wanted, record=record)
         built, begun = with_rods(scene, start)
         with lent(built, begun, step, plan, settles=self._settles) as (model, data):
-            found = simulate(
+            motion = simulate(
                 built, model, data, begun, times, reactions, realised=plan.realised, every=record
             )
-        return of_scene(scene, found)
+        return of_scene(scene, motion)

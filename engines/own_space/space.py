@@ -15,7 +15,7 @@ from ...cases.scene import Scene
 from ...cases.scene.observe import observe
 from ...cases.trajectory import Trajectory, X, Y
 from ..pymunk.model.contact import tip_radius
-from ..pymunk.settings.settings import SHIPPED_STEP
+from ..pymunk.settings.options import SHIPPED_STEP
 from .constraints import read_constraints
 from .meeting import DEEP, depth, first_overlap, past_end_times
 from .reading import Reading, read_bodies, turns

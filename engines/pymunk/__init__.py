@@ -28,10 +28,9 @@ from .read.record import Record
 from .read.samples import sampled
 from .settings import options
 from .settings.knobs import STEPS, cost, knobs
-from .settings.recipe import recipe
-from .settings.settings import SHIPPED_STEP
+from .settings.options import SHIPPED_STEP, own
+from .settings.recipe import as_options, recipe
 from .settings.snippet import snippet
-from .settings.user_options import as_options, own
 from .stepping.run import placed, stepper
 from .stepping.scene import FAR, build
 
@@ -71,8 +70,11 @@ class Pymunk:
         ways = plans.ways(scene, start) if self._tuned else ("native",)
         numbers = recipe(scene, start) if self._tuned else own(self.options, scene, start)
         shipped = self.setting == "shipped"
-        found = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
-        return [*without, *(planned(one, scene, start, shape) if shape else one for one in found)]
+        built = [plans.plan(scene, start, way, numbers, shipped=shipped) for way in ways]
+        return [
+            *without,
+            *(planned(plan, scene, start, shape) if shape else plan for plan in built),
+        ]
 
     def pace(self, scene: Scene) -> float:
         """See `Paced`; measured on chains: sweeps grow by the square of the joints."""

@@ -13,8 +13,7 @@ from numpy.linalg import LinAlgError
 from ...cases.fields.event import Event
 from ...cases.scene import Scene
 from ...cases.scene.observe import observe
-from ...cases.scene.passages import lasting, passing
-from ...cases.scene.still import still
+from ...cases.scene.passages import passing, pieces, still
 from ...cases.trajectory import Trajectory
 from ..integrators.dop853 import DOP853
 from ..integrators.march import EPS, sizes
@@ -111,14 +110,12 @@ def unread(scene: Scene, record: Trajectory, event: Event, room: float) -> float
     """
     u = event.falling(observe(scene, record, event.quantity))
     room = max(room, TOLERANCE * worst(np.abs(u)))
-    small = still(scene, record, event.quantity)
-    corners = scene.corners()
-    off = 0.0
-    for rows in lasting(record):
-        times = record.times[rows]
-        for t, curve in passing(times, u[rows], small, corners):
-            lasted = t - float(times[0])
-            off = max(off, _within(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
+    small, off = still(scene, record, event.quantity), 0.0
+    for _, times, values in pieces(record, u, scene.corners()):
+        for t, curve in passing(times, values, small):
+            if curve is not None:
+                lasted = t - float(record.times[0])
+                off = max(off, _within(lambda back, t=t, u=curve: u(t - back), room, t, lasted))
     return off
 
 

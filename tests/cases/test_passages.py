@@ -2,7 +2,7 @@
 
 import math
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -16,7 +16,7 @@ from textmech.cases.scene import passages as module
 from textmech.cases.scene.difference import deviation, from_reference
 from textmech.cases.scene.frame import PLANE, SPACE, Frame
 from textmech.cases.scene.observe import observe
-from textmech.cases.scene.passages import passages, polynomial, touches
+from textmech.cases.scene.passages import passing, pieces, polynomial
 from textmech.cases.scene.quantity import table
 from textmech.cases.scene.rotation import about, product
 from textmech.cases.trajectory import Array, Trajectory
@@ -27,6 +27,17 @@ from textmech.reference.certificate import agreement
 STILL = 1e-9
 
 
+def passages(times: Array, u: Array, corners: Sequence[float] = ()) -> list[float]:
+    """When [s] u falls through zero within the pieces of one phase."""
+    return [t for t, curve in crossings(times, u, corners) if curve]
+
+
+def crossings(times: Array, u: Array, corners: Sequence[float] = ()) -> list[tuple[float, Any]]:
+    record = Trajectory(times, {}, {}, phase=np.zeros(len(times), np.int64))
+    smooth = pieces(record, u, corners)
+    return [each for _, t, values in smooth for each in passing(t, values, STILL)]
+
+
 @pytest.mark.parametrize("count", [11, 41, 101])
 def test_a_zero_on_a_row_is_found_once(count: int) -> None:
     """A row may hold 0 or its rounding of either sign."""
@@ -34,12 +45,12 @@ def test_a_zero_on_a_row_is_found_once(count: int) -> None:
     for rounding in (0.0, 1e-16, -1e-16):
         u = 0.5 - times
         u[count // 2] = rounding
-        assert list(passages(times, u, STILL)) == pytest.approx([0.5], abs=1e-12)
+        assert passages(times, u) == pytest.approx([0.5], abs=1e-12)
 
 
 def test_what_ends_at_zero_is_the_boundarys() -> None:
     times = np.linspace(0.0, 0.5, 11)
-    assert list(passages(times, 0.5 - times, STILL)) == []
+    assert passages(times, 0.5 - times) == []
 
 
 @pytest.mark.parametrize("depth", [1e-6, 1e-4, 1e-2])
@@ -52,14 +63,14 @@ def test_a_dip_between_rows_is_found(depth: float, samples: int) -> None:
     """
     times = np.linspace(0.1, 20.0, samples)
     known = [2 * math.pi * k - math.acos(1 - depth) for k in (1, 2, 3)]
-    found = list(passages(times, 1 - depth - np.cos(times), STILL))
+    found = passages(times, 1 - depth - np.cos(times))
     assert found == pytest.approx(known, abs=1e-7 if samples == 150 else 1e-9)
 
 
 def test_a_hump_between_rows_is_found() -> None:
     """cos t − 1 + d rises above zero around 2 π k only."""
     times = np.linspace(0.1, 14.0, 301)
-    found = list(passages(times, np.cos(times) - 1 + 1e-6, STILL))
+    found = passages(times, np.cos(times) - 1 + 1e-6)
     known = [2 * math.pi * k + math.acos(1 - 1e-6) for k in (1, 2)]
     assert found == pytest.approx(known, abs=1e-10)
 
@@ -67,7 +78,7 @@ def test_a_hump_between_rows_is_found() -> None:
 def test_what_trembles_does_not_fall() -> None:
     times = np.linspace(0.0, 1.0, 101)
     trembling = 1e-17 * np.where(np.arange(101) % 2, 1.0, -1.0)
-    assert list(passages(times, trembling, STILL)) == []
+    assert passages(times, trembling) == []
 
 
 @pytest.mark.mutant("an event's time read from a curve through both sides of a corner")
@@ -77,8 +88,8 @@ def test_no_curve_goes_through_both_sides_of_a_corner() -> None:
     for zero, corner in ((0.59, 0.6), (0.61, 0.6), (0.03, 0.025), (0.97, 0.975)):
         bend = np.maximum(times - corner, 0.0) - max(zero - corner, 0.0)
         u = np.exp(zero) - np.exp(times) - 3.0 * bend
-        assert list(passages(times, u, STILL, [corner])) == pytest.approx([zero], abs=1e-12)
-        (through,) = passages(times, u, STILL)
+        assert passages(times, u, [corner]) == pytest.approx([zero], abs=1e-12)
+        (through,) = passages(times, u)
         assert abs(through - zero) > 1e-4
 
 
@@ -86,7 +97,7 @@ def test_a_dip_beside_a_corner_is_found() -> None:
     """Of what bends at its least row: below zero on the one side, where the curve still falls."""
     times = np.linspace(0.0, 1.0, 11)
     before, after = (times - 0.55) ** 2 - 1e-4, 0.0024 + 2.0 * (times - 0.6)
-    found = list(passages(times, np.where(times <= 0.6, before, after), STILL, [0.6]))
+    found = passages(times, np.where(times <= 0.6, before, after), [0.6])
     assert found == pytest.approx([0.54], abs=1e-9)
 
 
@@ -100,9 +111,9 @@ def test_what_jumps_at_a_corner_is_not_beyond_it_before(over: float) -> None:
     """It rises to sin 0.6 and jumps: it passes what is below that, and nothing above."""
     t, at = np.linspace(0.0, 0.8, 17), 0.6
     level = np.sin(at) + over
-    assert list(passages(t, level - jumping(t, at), 1e-9, [at])) == []
+    assert passages(t, level - jumping(t, at), [at]) == []
     below = np.sin(at) - 1e-3
-    (found,) = passages(t, below - jumping(t, at), 1e-9, [at])
+    (found,) = passages(t, below - jumping(t, at), [at])
     assert found == pytest.approx(float(np.arcsin(below)), abs=1e-9)
 
 
@@ -110,7 +121,7 @@ def test_what_jumps_at_a_corner_is_not_beyond_it_before(over: float) -> None:
 def test_a_curve_through_a_jump_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "JUMP", np.inf)
     t, at = np.linspace(0.0, 0.8, 17), 0.6
-    assert list(passages(t, np.sin(at) + 1e-3 - jumping(t, at), 1e-9, [at])) != []
+    assert passages(t, np.sin(at) + 1e-3 - jumping(t, at), [at]) != []
 
 
 @pytest.mark.mutant("a curve of weights in an order drawn by chance")
@@ -139,8 +150,8 @@ def test_the_size_of_what_passes_zero_turns_back_there(count: int, zero: float) 
     """|sin 3 (t − t₀)|, as a speed: a curve through both sides would tell any depth."""
     times = np.linspace(0.0, 1.0, count) ** 1.1
     u = np.abs(np.sin(3.0 * (times - zero)))
-    assert list(passages(times, u, STILL)) == []
-    found = list(touches(times, u, STILL))
+    assert passages(times, u) == []
+    found = [t for t, _ in crossings(times, u)]
     assert found == pytest.approx([zero], abs=1e-3 if count < 30 else 1e-6)  # few rows tell less
 
 

@@ -17,11 +17,9 @@ from textmech.cases.case import Case
 from textmech.cases.scene import Scene
 from textmech.cases.scene.observe import observe
 from textmech.cases.trajectory import Trajectory
-from textmech.engines.engine import Plan, Refusal, Start
-from textmech.engines.engine import begun as begun_of
+from textmech.engines.engine import Refusal, Start
 from textmech.engines.mujoco.adapter.compilation import compiled
 from textmech.engines.mujoco.callbacks import settle as settling
-from textmech.engines.mujoco.callbacks.settle import Floor
 from textmech.engines.pymunk.adapter import refuse
 from textmech.engines.pymunk.adapter.plans import numbers_by_name
 from textmech.engines.pymunk.adapter.script import before_each, building
@@ -159,23 +157,6 @@ def test_pymunk_tells_apart_what_it_has_bits_for(monkeypatch: pytest.MonkeyPatch
     assert "tells apart what touches what by 1 bits" in refused("pymunk", scene, start)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["stacked_blocks.pulled", "stacked_blocks.thrown"])
-def test_all_at_once_or_one_after_the_other_a_start_settles_alike(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scene, start = begun(name)
-    plan = planned(TUNED["mujoco"], scene, start)
-    assert isinstance(plan, Plan)
-    found = []
-    for tries in ((1, 4), ()):
-        monkeypatch.setattr(settling, "_ALL_AT_ONCE", tries)
-        model, data = compiled(scene, start, STEP, plan)
-        found.append([*settling.settle(scene, model, data, start).values(), *data.qvel])
-    np.testing.assert_allclose(found[0][:4], found[1][:4], rtol=1e-8)
-    np.testing.assert_allclose(found[0][4:], found[1][4:], atol=1e-9)
-
-
 @pytest.mark.parametrize("engine", NEAR)
 @pytest.mark.parametrize("up", [20, 70, 110, 160])  # deg: MuJoCo's axes are others on a steep side
 def test_forces_count_in_the_axes_of_the_pair(engine: str, up: int, tmp_path: Path) -> None:
@@ -196,16 +177,6 @@ def test_pymunk_presses_together_by_its_seed_alone(numbers: dict[str, float], gr
     case, _, start = known("a disk on a tray that turns")
     world = placed(case.scene, start, STEP, numbers, "native")
     assert world.pairs["touch"][0].radius == R + grown
-
-
-def test_what_rounding_is_relative_to_is_where_it_touches_now() -> None:
-    """However fast it is: the tray turns with 1 rad/s at the start."""
-    case, _, start = known("a disk on a tray that turns")
-    model, data = compiled(case.scene, start, STEP, planned(TUNED["mujoco"], case.scene, start))
-    pair = case.scene.pairs["touch"]
-    (height,) = Floor(case.scene, model, data, [], [pair]).heights
-    place = pair.place(begun_of(case.scene, start))
-    assert height == pytest.approx(np.max(np.abs(place)), rel=1e-12)  # rounding
 
 
 def test_what_starts_apart_is_not_pressed_together() -> None:

@@ -13,14 +13,12 @@ from typing import Any
 import mujoco
 
 from ....cases.scene import Scene
-from ....cases.scene.frame import SPACE
 from ....cases.trajectory import Array
 from ...engine import Choice, Plan, Start
 from ..callbacks.contact_friction import one_touch, touches
 from ..callbacks.point_forces import acting
 from ..callbacks.rope_limit import draw, ropes_of
 from ..callbacks.settle import settle
-from ..callbacks.settle_in_space import settle_in_space
 from ..callbacks.signal import installed, listening
 from ..model.force import lean
 from ..model.number_text import EACH
@@ -61,8 +59,8 @@ def placed(
 ) -> tuple[mujoco.MjModel, mujoco.MjData, dict[str, Any]]:
     """The model and data of `compiled` with the start as keyframe, settled if `settles`.
 
-    By name, how deep [m] it settles in the floor (of a body in space with how fast [m/s] it creeps
-    there), and how much too long [m] its ropes are.
+    By name, how deep [m] what touches settles in the floor and how fast [m/s] it creeps there, and
+    how much too long [m] ropes are.
     """
     model, data = compiled(scene, start, step, plan)
     return model, data, _settle(scene, model, data, start, plan) if settles else {}
@@ -111,8 +109,7 @@ def _settle(
 ) -> dict[str, Any]:
     if plan.realised != "native" and one_touch(scene):
         touches(scene, model, data)  # friction of MuJoCo's own would press it into the floor
-    by = settle_in_space if scene.frame is SPACE else settle
-    moved: dict[str, Any] = {**by(scene, model, data, start)}
+    moved: dict[str, Any] = {**settle(scene, model, data, start)}
     lean(scene, model, data)
     roped = any(ropes_of(scene))
     moved |= draw(scene, model, data) if roped else {}

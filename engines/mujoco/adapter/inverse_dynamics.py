@@ -51,8 +51,8 @@ def answered(
         places, dofs = ([int(of[0]) for of in each] for each in zip(
             *((joint.qposadr, joint.dofadr) for joint in joints), strict=True
         ))  # fmt: skip
-        told = {name: _withheld(scene, name) for name in wanted}
-        read = {n: _reader(scene, model, data, n, states, dofs) for n in wanted if not told[n]}
+        refusals = {name: _withheld(scene, name) for name in wanted}
+        read = {n: _reader(scene, model, data, n, states, dofs) for n in wanted if not refusals[n]}
         seen: dict[str, list[Any]] = {name: [] for name in read}
         for row in np.stack(list(states.values()), axis=1):
             data.qpos[places], data.qvel[dofs], data.qacc[dofs] = row.T
@@ -62,9 +62,9 @@ def answered(
             mujoco.mj_subtreeVel(model, data)
             for name, samples in seen.items():
                 samples.append(read[name]())
-    found = {name: np.array(samples, float) for name, samples in seen.items()}
-    matrices = {name: found[name].ravel() for name in found if name == MASS_MATRIX}
-    return {**told, **found, **matrices}
+    answers = {name: np.array(samples, float) for name, samples in seen.items()}
+    matrices = {name: answers[name].ravel() for name in answers if name == MASS_MATRIX}
+    return {**refusals, **answers, **matrices}
 
 
 def _withheld(scene: Scene, name: str) -> str:
@@ -82,8 +82,8 @@ def _coordinates(scene: Scene, names: Mapping[str, Any]) -> dict[str, tuple[str,
     """MuJoCo's joint of each coordinate, and the quantity that moves it."""
     if scene.frame is PLANE:
         return {name: (name, "") for name in names}
-    found = dict(_natives(scene))
-    return {name: found[name] for name in names}
+    joints = dict(_natives(scene))
+    return {name: joints[name] for name in names}
 
 
 def _natives(scene: Scene) -> Iterator[tuple[str, tuple[str, str]]]:
@@ -143,10 +143,10 @@ def _of_all(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> float:
     p = data.subtree_linvel[0] * model.body_subtreemass[0]
     D = data.subtree_angmom[0] + np.cross(data.subtree_com[0], p)
     energies = {"kinetic": kinetic, "potential": potential, "total": kinetic + potential}
-    told = {f"energy.{key}": x for key, x in energies.items()}
-    told |= {f"momentum.{axis}": x for axis, x in zip("xyz", p, strict=True)}
-    told |= {f"momentum.angular_{axis}": x for axis, x in zip("xyz", D, strict=True)}
-    return float((told | {"momentum.angular": D[2]})[name])
+    quantities = {f"energy.{key}": x for key, x in energies.items()}
+    quantities |= {f"momentum.{axis}": x for axis, x in zip("xyz", p, strict=True)}
+    quantities |= {f"momentum.angular_{axis}": x for axis, x in zip("xyz", D, strict=True)}
+    return float((quantities | {"momentum.angular": D[2]})[name])
 
 
 # A scene's MJCF file with shapes for inertias, which MuJoCo's compiler computes, and sensors.

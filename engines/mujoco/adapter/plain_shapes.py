@@ -7,8 +7,6 @@ lies exactly level, and a box that is put on it is not in contact yet, as no use
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from functools import partial
 from xml.etree import ElementTree as ET
 
 import mujoco
@@ -18,7 +16,7 @@ from ....cases.scene import GROUND, Body, Scene
 from ....cases.scene.frame import PLANE, SPACE
 from ....cases.trajectory import ANGLE, OMEGA, VX, VY, Array, Trajectory, X, Y
 from ...engine import Plan, Start
-from ...plain_shapes import CYLINDER, unsuited, with_box, without_box
+from ...plain_shapes import CYLINDER, as_built, unsuited, with_box, without_box
 from ..callbacks.signal import listening
 from ..model.drive import controls
 from ..model.force import BY_ITSELF, begun_with, lacking, write
@@ -54,10 +52,10 @@ def words(scene: Scene, start: Start, shape: str) -> str:
     geom = _geom(body, shape)
     across, *others = [f"{2 * float(size):g}" for size in geom["size"].split()]
     if body.radius is None:
-        told = f"{' × '.join([across, *others])} m"
+        sizes = f"{' × '.join([across, *others])} m"
     else:
-        told = " and ".join([f"{across} m across", *(f"{long} m long" for long in others)])
-    return f"{body.name} is a {geom['type']} geom, {told}, with a free joint"
+        sizes = " and ".join([f"{across} m across", *(f"{long} m long" for long in others)])
+    return f"{body.name} is a {geom['type']} geom, {sizes}, with a free joint"
 
 
 def points(scene: Scene, shape: str) -> int:
@@ -75,12 +73,7 @@ def planned(plan: Plan, scene: Scene, start: Start, shape: str) -> Plan:
         for field in ("normal", "tangent")
         if planes.count(contact.on) > 1
     }
-    said = partial(_protocol, words(scene, start, shape))
-    return replace(plan, protocol=said, withheld={**plan.withheld, **together})
-
-
-def _protocol(what: str, step: float) -> str:
-    return what
+    return as_built(plan, words(scene, start, shape), together)
 
 
 def plain_mjcf(
@@ -177,17 +170,17 @@ def measured(scene: Scene, text: str) -> dict[str, float]:
     model = mujoco.MjModel.from_xml_string(text)
     (body,) = scene.bodies.values()
     number = model.body(called(body.name)).id
-    found = {"gravity.x": model.opt.gravity[0], "gravity.y": model.opt.gravity[2]}
-    found[f"{body.name}.mass"] = model.body_mass[number]
+    numbers = {"gravity.x": model.opt.gravity[0], "gravity.y": model.opt.gravity[2]}
+    numbers[f"{body.name}.mass"] = model.body_mass[number]
     if body.turns:
-        found[f"{body.name}.inertia"] = tensor(model, number)[1, 1]
+        numbers[f"{body.name}.inertia"] = tensor(model, number)[1, 1]
     for contact in scene.contacts.values():
         met = {model.geom(name).id for name in (grounded(contact.on), body.name)}
         pairs = [i for i in range(model.npair) if {*_geoms(model, i)} == met]
         rubbing = [model.pair_friction[i, 0] for i in pairs]
         rubbing = rubbing or [max(model.geom_friction[i, 0] for i in met)]
-        found[f"{contact.name}.friction"] = rubbing[0] if contact.friction else 0.0
-    return {name: float(x) for name, x in found.items()}
+        numbers[f"{contact.name}.friction"] = rubbing[0] if contact.friction else 0.0
+    return {name: float(x) for name, x in numbers.items()}
 
 
 def _geoms(model: mujoco.MjModel, pair: int) -> tuple[int, int]:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from ....cases.scene import CENTER, Contact, Pair, Scene
+from ....cases.scene import CENTER, Scene
 from ....cases.scene.frame import SPACE
 from ...engine import Choice, Plan, Realised, Start
 from ...foot_contact import strides
@@ -56,8 +56,8 @@ def _ours(scene: Scene, realised: Realised) -> list[str]:
     if one_slide(scene) or one_touch(scene):
         when = "stage" if smooth_only(scene) and not met(scene) else "step"
         words.append(f"dry friction by our law before every {when}")
-    if told := ", ".join(force.name for force, _ in lacking(scene)):
-        words.append(f"{told} by our law at every stage, which the script has not")
+    if names := ", ".join(force.name for force, _ in lacking(scene)):
+        words.append(f"{names} by our law at every stage, which the script has not")
     return words
 
 
@@ -110,13 +110,13 @@ def _words(scene: Scene, start: Start, plan: Plan, settles: bool, tuned: bool, s
     words += _ours(scene, plan.realised)
     if tuned and met(scene) and falls(scene, start):
         words.append("starts above the floor: contacts are tuned for impacts")
-    if tuned and (thrown := max((one.restitution for one in met(scene)), default=0.0)):
+    if tuned and (thrown := max((contact.restitution for contact in met(scene)), default=0.0)):
         lasts, kept = spread(thrown)
         words.append(f"a bounce lasts {lasts:.0f} steps, and keeps its speed to about {kept:.2g} %")
     words += [f"{name} has {LEAST:g} kg m² about its own axis" for name in _slender(scene)]
     if settles and (met(scene) or any(ropes_of(scene))):
         *_, moved = placed(scene, start, step, plan, settles=True)
-        words += _begun_in_space(moved) if scene.frame is SPACE else _begun(scene, moved)
+        words += _begun(scene, moved)
     return "; ".join(words)
 
 
@@ -126,23 +126,17 @@ def _slender(scene: Scene) -> list[str]:
     return [n for n, body in bodies.items() if body.turns and min(body.inertia[:3]) == 0.0]
 
 
-def _begun(scene: Scene, moved: Mapping[str, float]) -> list[str]:
-    """How much too long ropes are started [m], and how deep in the floor what touches."""
+def _begun(scene: Scene, moved: Mapping[str, Any]) -> list[str]:
+    """How much too long ropes are started [m]; how deep in the floor what touches is [m].
+
+    In space with how fast it creeps there [m/s].
+    """
     both = {**scene.touching, **scene.pairs}
     words = [f"{name} started {m:.1e} m too long" for name, m in moved.items() if name not in both]
-    deep = ((both[name], depth) for name, depth in moved.items() if depth and name in both)
-    return words + [f"{_at(c)} started {depth:.1e} m in the {c.on}" for c, depth in deep]
-
-
-def _begun_in_space(moved: Mapping[str, tuple[float, float]]) -> list[str]:
-    """How deep bodies are started in the floor [m], and how fast they creep there [m/s]."""
-    return [
-        f"{name} started {depth:.1e} m in the floor, creeping {creep:.1e} m/s"
-        for name, (depth, creep) in moved.items()
-        if depth
-    ]
-
-
-def _at(contact: Contact | Pair) -> str:
-    """`wheel`, `rod.end`."""
-    return contact.body if contact.at.point == CENTER else str(contact.at)
+    for contact, (depth, creep) in ((both[n], size) for n, size in moved.items() if n in both):
+        if depth:
+            space = scene.frame is SPACE
+            at = contact.body if space or contact.at.point == CENTER else str(contact.at)
+            creeps = f", creeping {creep:.1e} m/s" if space else ""
+            words.append(f"{at} started {depth:.1e} m in the {contact.on}{creeps}")
+    return words

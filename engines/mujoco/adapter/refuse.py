@@ -127,8 +127,8 @@ def _in_space(scene: Scene, tree: Tree) -> Iterator[str]:
         if drive.joint in tree.loops:
             what = f"{drive.joint.name} is driven, and closes a loop of driven joints"
             yield f"adapter: {what}: drive fewer"
-        left = freedoms_left(scene, drive.joint)
-        if drive.number >= len(left) or left[drive.number].kind == "ball":
+        freedoms = freedoms_left(scene, drive.joint)
+        if drive.number >= len(freedoms) or freedoms[drive.number].kind == "ball":
             yield f"adapter: {drive.joint.name} would have to turn a particle, which has no axes"
 
 

@@ -11,9 +11,10 @@ import mujoco
 from ....cases.scene import Bounds, Contact, DryFriction, Scene
 from ....cases.trajectory import Array
 from ...engine import Diverged
-from ...law import braking, dry_friction
+from ...law import braking
 from ..model.contact import alone
 from ..model.tree import dry_joints
+from .friction import engage
 
 _LEAST = 1e-5  # of a coefficient of friction: MuJoCo takes no less
 
@@ -70,13 +71,6 @@ class Touch:
         """Friction holds, whatever it takes."""
         self._set(2 * self.contact.static, 0.0)
 
-    def engage(self) -> None:
-        """Hold what sticks, push what slides."""
-        if self.sense:
-            self.push(-self.sense * self.brakes(self.sense, self.speed))
-        else:
-            self.hold()
-
     def look(self) -> None:
         """Whether it touches, in the state that MuJoCo was last asked for.
 
@@ -97,7 +91,7 @@ class Touch:
         """Friction as it was."""
         self.sense, self.normal = noted
         self.normal_before = self.normal
-        self.engage()
+        engage(self)
 
     def _set(self, coefficient: float, force: float) -> None:
         self.model.pair_friction[self.pair, :2] = coefficient
@@ -109,11 +103,6 @@ class Touch:
     def brakes(self, sense: int, speed: float) -> float:
         """The size of the friction force [N] that slides this way, at any speed."""
         return braking(self.friction, sense, speed)
-
-    def starts(self, applied: float) -> int:
-        """In which sense a force starts it from rest."""
-        force = dry_friction(self.friction, 0.0, applied)
-        return 0 if force == -applied else 1 if applied > 0 else -1
 
     @property
     def weakens(self) -> float:
@@ -131,15 +120,15 @@ class Touch:
 
 def touches(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> list[Touch]:
     """The contacts of the scene with two coefficients."""
-    found = []
+    touching = []
     for contact in scene.contacts.values():
         if contact.switches and contact.static != contact.kinetic:
             body = scene.bodies[contact.body]
             radius = body.radius or 0.0
             turns = radius**2 / body.moment if body.turns else 0.0
             mass = 1 / (1 / body.mass + turns)
-            found.append(Touch(model, data, contact, radius, mass))
-    return found
+            touching.append(Touch(model, data, contact, radius, mass))
+    return touching
 
 
 def one_touch(scene: Scene) -> bool:

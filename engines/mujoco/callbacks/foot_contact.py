@@ -35,23 +35,23 @@ class Feet:
 
     def step(self, step: float) -> None:
         """Take one step [s], in as many parts as feet strike in it."""
-        left = step
-        while left > _SHORTEST * step:
+        rest = step
+        while rest > _SHORTEST * step:
             mujoco.mj_kinematics(self.model, self.data)
             self.stride.look(self._place)
             above = {
                 name: height for name in self._swinging() if (height := self._height(name)) > 0.0
             }
             mujoco.mj_getState(self.model, self.data, self._begun, _STATE)
-            self._take(left)
+            self._take(rest)
             down = [name for name in above if self._height(name) <= 0.0]
             if not down:
                 break
-            lengths = {name: self._until_down(name, above[name], left) for name in down}
+            lengths = {name: self._until_down(name, above[name], rest) for name in down}
             first = min(lengths, key=lengths.__getitem__)
             self._again(lengths[first])
             self._strike(first)
-            left -= lengths[first]
+            rest -= lengths[first]
         self.model.opt.timestep = step
 
     def remember(self) -> Standing:

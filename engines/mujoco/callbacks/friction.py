@@ -5,6 +5,7 @@ MuJoCo's `frictionloss` holds a joint with up to that force, and brakes it with 
 """
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -75,23 +76,11 @@ class Slide:
     def recall(self, noted: int) -> None:
         """Friction as it was."""
         self.sense = noted
-        self.engage()
-
-    def engage(self) -> None:
-        """Hold what sticks, push what slides."""
-        if self.sense:
-            self.push(-self.sense * self.brakes(self.sense, self.speed))
-        else:
-            self.hold()
+        engage(self)
 
     def brakes(self, sense: int, speed: float) -> float:
         """The size of the friction force [N] that slides this way, so fast."""
         return self._brakes[sense] if self.steady else braking(self.friction, sense, speed)
-
-    def starts(self, applied: float) -> int:
-        """In which sense a force starts it from rest."""
-        force = dry_friction(self.friction, 0.0, applied)
-        return 0 if force == -applied else 1 if applied > 0 else -1
 
     def applied(self) -> tuple[float, float]:
         """Force along the slide [N] that would hold it at rest, and the mass [kg] it moves.
@@ -106,6 +95,20 @@ class Slide:
             self._mass = 1.0 / self.effort.item(0, self.dof)
         pushed = self._pushed.item(self.dof)  # our friction
         return self._mass * gains - pushed, self._mass
+
+
+def engage(slide: Any) -> None:
+    """Hold what sticks, push what slides: a joint or a contact."""
+    if slide.sense:
+        slide.push(-slide.sense * slide.brakes(slide.sense, slide.speed))
+    else:
+        slide.hold()
+
+
+def starts(friction: DryFriction, applied: float) -> int:
+    """In which sense a force starts what rests, or 0."""
+    force = dry_friction(friction, 0.0, applied)
+    return 0 if force == -applied else 1 if applied > 0 else -1
 
 
 def uncoupled(model: mujoco.MjModel, dof: int) -> bool:

@@ -7,7 +7,7 @@ reversal: `frictionloss` aims at v = 0, so it would push the other way before th
 import mujoco
 
 from .contact_friction import Touch
-from .friction import Slide
+from .friction import Slide, starts
 
 _FAR = 6  # steps to a stop: until then the force is the same all step long, whatever comes next
 
@@ -32,7 +32,7 @@ def bounded(slide: Slide | Touch) -> None:
         _sliding(slide, now, soon, mass)
         return
     soon += slide.weakens if now > 0 else -slide.weakens  # as if the bound stayed
-    if sense := slide.starts(now) or slide.starts(soon):
+    if sense := starts(slide.friction, now) or starts(slide.friction, soon):
         slide.sense = sense
         slide.push(-sense * _breaking_loose(slide, now, soon))
     else:
@@ -48,7 +48,7 @@ def _sliding(slide: Slide | Touch, now: float, soon: float, mass: float) -> None
         slide.push(brakes)
         return
     part = -slide.speed / gained  # of the step, until it stops
-    slide.sense = slide.starts(now + part * (soon - now))
+    slide.sense = starts(slide.friction, now + part * (soon - now))
     if slide.sense:
         after = -slide.sense * slide.brakes(slide.sense, 0.0)
         slide.push(part * brakes + (1 - part) * after)

@@ -127,14 +127,14 @@ def _nothing() -> None:
 
 def following(laws: Sequence[Signal], corners: Corners | None = None) -> Control | None:
     """A callback for the actuators' controls, in their order, that do not follow by themselves."""
-    told = [(i, law, factor(law)) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
+    factors = [(i, law, factor(law)) for i, law in enumerate(laws) if law.law not in BY_ITSELF]
 
     def bind(data: mujoco.MjData) -> Callable[[], None]:
         controls = data.ctrl
 
         def control() -> None:
             t, now = data.time, corners and corners.now
-            for i, law, size in told:
+            for i, law, size in factors:
                 if now is not None and corners and law.corners:
                     controls[i] = mean(law, corners.step)(now)
                 else:
@@ -142,4 +142,4 @@ def following(laws: Sequence[Signal], corners: Corners | None = None) -> Control
 
         return control
 
-    return bound(bind) if told else None
+    return bound(bind) if factors else None

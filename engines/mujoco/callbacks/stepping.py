@@ -13,7 +13,7 @@ from ....cases.scene import Scene
 from .contact_friction import Touch, one_touch, touches
 from .edge import edges
 from .foot_contact import Feet, feet
-from .friction import Slide, slides, smooth_only
+from .friction import Slide, slides, smooth_only, starts
 from .friction_law import bounded
 from .signal import Control
 from .smooth import smooth
@@ -38,7 +38,7 @@ class Steps:
             mujoco.mj_forward(self.model, self.data)
         for slide in dry:
             applied, _ = slide.applied()
-            slide.sense = slide.sense or slide.starts(applied)
+            slide.sense = slide.sense or starts(slide.friction, applied)
 
     def note(self) -> None:
         """Remember the senses of the slides."""
@@ -67,17 +67,17 @@ def native(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
 
 def by_law(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:
     """Steps with edges and smooth friction at every stage, and other dry friction before each."""
-    found = _rubbing(scene, model, data)
+    rubbing = _rubbing(scene, model, data)
     controls = [*smooth(scene, model), *edges(scene, model)]
-    if not found:
+    if not rubbing:
         return replace(native(scene, model, data), controls=controls)
 
     def step() -> None:
-        for slide in found:
+        for slide in rubbing:
             bounded(slide)
         mujoco.mj_step(model, data)
 
-    return Steps(model, data, found, _repeated(step), controls, alone=False)
+    return Steps(model, data, rubbing, _repeated(step), controls, alone=False)
 
 
 def at_strikes(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> Steps:

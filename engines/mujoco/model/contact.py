@@ -65,7 +65,7 @@ def _tilts(contact: Any) -> bool:
 
 
 def _all_alone(scene: Scene) -> bool:
-    return not scene.pairs and all(alone(scene, one) for one in touching(scene).values())
+    return not scene.pairs and all(alone(scene, contact) for contact in touching(scene).values())
 
 
 def alone(scene: Scene, contact: Contact) -> bool:

@@ -38,8 +38,8 @@ def drives(scene: Scene) -> Iterator[Drive]:
         joint = scene.joints[part]
         freedom = joint.rates[rate]
         flat = scene.frame is PLANE  # where a slot's freedoms stand in MuJoCo's order
-        left = freedoms_left(scene, joint) if flat else joint.freedoms
-        number = [one.rate for one in left].index(rate)
+        freedoms = freedoms_left(scene, joint) if flat else joint.freedoms
+        number = [each.rate for each in freedoms].index(rate)
         name = coordinate(scene, joint, number)
         yield Drive(joint, number, name, law, f"{part}.{freedom.effort}")
 

@@ -48,7 +48,7 @@ from .limit import (
     write_rope,
     write_stops,
 )
-from .number_text import soft, written
+from .number_text import section, soft, written
 
 # Viscous friction along a slide as MuJoCo's damping of a joint: a v + b v|v| + c v³.
 
@@ -226,8 +226,8 @@ class Limited:
 
 def lacking(scene: Scene) -> list[tuple[Force, str]]:
     """The forces that MuJoCo has no element for, and why."""
-    found = ((force, ELEMENTS[type(force)].lacks(scene, force)) for force in scene.forces.values())
-    return [(force, why) for force, why in found if why is not None]
+    each = ((force, ELEMENTS[type(force)].lacks(scene, force)) for force in scene.forces.values())
+    return [(force, why) for force, why in each if why is not None]
 
 
 def write(root: ET.Element, scene: Scene) -> None:
@@ -241,9 +241,7 @@ def write(root: ET.Element, scene: Scene) -> None:
 def finish(root: ET.Element, scene: Scene, numbers: Mapping[str, object]) -> None:
     """A setting's numbers for the limits, and their sensors behind those of contacts."""
     for limit in scene.limits():
-        found = root.find("sensor")
-        sensors = ET.SubElement(root, "sensor") if found is None else found
-        its = _limited(limit)
+        its, sensors = _limited(limit), section(root, "sensor")
         its.finish(
             root, sensors, limit, soft(numbers, its.group, limit.name), *_about(scene, limit, root)
         )
@@ -268,9 +266,9 @@ def lean(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> None:
 
 
 def _limited(limit: Limit) -> Limited:
-    found = ELEMENTS[type(limit)].limit
-    assert found is not None, limit.word
-    return found
+    limited = ELEMENTS[type(limit)].limit
+    assert limited is not None, limit.word
+    return limited
 
 
 def signals(scene: Scene) -> list[Signal]:

@@ -19,7 +19,7 @@ from ....cases.scene.rotation import Vector3
 from ....cases.trajectory import Array
 from ...engine import Choice
 from .contact import HARDEST
-from .number_text import written
+from .number_text import section, written
 from .tree import called, held_points, local
 
 
@@ -93,10 +93,8 @@ def _reach(scene: Scene, anchor: Anchor) -> float:
 def add_rods(root: ET.Element, loops: Sequence[Joint]) -> None:
     """The tendons that are held."""
     if rods := [joint for joint in loops if joint.swings]:
-        found = root.find("tendon")
-        tendons = ET.SubElement(root, "tendon") if found is None else found
         for rod in rods:
-            spatial = ET.SubElement(tendons, "spatial", name=rod.name)
+            spatial = ET.SubElement(section(root, "tendon"), "spatial", name=rod.name)
             for end in (rod.a, rod.b):
                 ET.SubElement(spatial, "site", site=str(end))
 

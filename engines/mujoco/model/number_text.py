@@ -1,6 +1,7 @@
-"""Numbers as MJCF writes them."""
+"""Numbers and sections as MJCF writes them."""
 
 from collections.abc import Iterable, Mapping
+from xml.etree import ElementTree as ET
 
 from ....cases.scene.rotation import Vector3
 
@@ -38,6 +39,12 @@ def soft(numbers: Mapping[str, object], group: str, element: str) -> dict[str, s
 def of_one(element: str) -> str:
     """The group of what is one contact's or one joint's stops' alone."""
     return f"{EACH}.{element}"
+
+
+def section(root: ET.Element, name: str) -> ET.Element:
+    """The element's section of that name, made where it has none."""
+    known = root.find(name)
+    return ET.SubElement(root, name) if known is None else known
 
 
 EACH = "each"

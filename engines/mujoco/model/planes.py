@@ -18,7 +18,7 @@ THIN = 1e-6  # m, half the thickness of a disk in space: an ellipsoid, which tou
 
 def touching(scene: Scene) -> dict[str, Contact]:
     """The contacts with MuJoCo's planes: every point that may touch but feet, which are pinned."""
-    return {name: one for name, one in scene.touching.items() if one.ahead_of is None}
+    return {name: contact for name, contact in scene.touching.items() if contact.ahead_of is None}
 
 
 def met(scene: Scene) -> list[Contact | Pair]:

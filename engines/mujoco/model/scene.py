@@ -26,7 +26,7 @@ from .drive import write as write_drives
 from .edge import write_room
 from .force import BY_ITSELF, begun_with, finish, write
 from .loops import add_loops, add_rods
-from .number_text import attributes, lifted, soft, written
+from .number_text import attributes, lifted, section, soft, written
 from .pairs import add_geoms, add_pair_sensors, add_pairs
 from .planes import Soft, add_contacts, add_geom, add_planes, add_sensors, met, touching
 from .start import started
@@ -194,13 +194,13 @@ def _start(
     out: bool,
 ) -> None:
     """The start as a keyframe, in the order in which MuJoCo numbers joints: depth first."""
-    found = started(scene, start)
+    coordinates = started(scene, start)
     for branch in spanning_tree(scene).branches if out else ():
         if branch.joint is None:
-            for columns in found[called(branch.body)]:
+            for columns in coordinates[called(branch.body)]:
                 columns.append(0.0)
     # Document order is depth first.
-    each = [found[element.attrib["name"]] for element in root.iter("body")]
+    each = [coordinates[element.attrib["name"]] for element in root.iter("body")]
     key = ET.SubElement(ET.SubElement(root, "keyframe"), "key", name="start")
     key.set("qpos", written(*(begun[0] or [x for places, _ in each for x in places])))
     key.set("qvel", written(*(begun[1] or [x for _, rates in each for x in rates])))
@@ -220,8 +220,7 @@ def add_pins(root: ET.Element, scene: Scene, start: Start, attributes: Mapping[s
     feet = strode(scene)
     if world is None or not feet:
         return
-    equality = root.find("equality")
-    equality = ET.SubElement(root, "equality") if equality is None else equality
+    equality = section(root, "equality")
     for name, foot in feet.items():
         stands = lies(scene, foot, start)
         at = place(scene, foot.at, start) if stands else (0.0, 0.0)
@@ -256,17 +255,17 @@ def principal(tensor: Array) -> tuple[tuple[float, float, float], Quaternion | N
 
 def _possible(moments: Array) -> tuple[float, float, float]:
     """No moment exceeds the sum of the others, by rounding."""
-    found = np.maximum(moments, LEAST)
-    largest = int(np.argmax(found))
-    rest = float(sum(np.delete(found, largest)))
-    if 0 < found[largest] - rest <= ROUNDING * rest:
-        found[largest] = rest
-    return float(found[0]), float(found[1]), float(found[2])
+    principal = np.maximum(moments, LEAST)
+    largest = int(np.argmax(principal))
+    rest = float(sum(np.delete(principal, largest)))
+    if 0 < principal[largest] - rest <= ROUNDING * rest:
+        principal[largest] = rest
+    return float(principal[0]), float(principal[1]), float(principal[2])
 
 
 def _quaternion(axes: Array) -> Quaternion:
     """The unit quaternion (w, x, y, z) of a rotation matrix."""
-    found = np.empty(4)
-    mujoco.mju_mat2Quat(found, axes.ravel())
-    w, x, y, z = found.tolist()
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, axes.ravel())
+    w, x, y, z = quaternion.tolist()
     return w, x, y, z

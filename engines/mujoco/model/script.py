@@ -55,16 +55,20 @@ def control_script(model: mujoco.MjModel, laws: Sequence[Signal]) -> str:
     # MuJoCo asks it of every model of the process.
     begins = ["def control(model, data):", f"    if model.nu != {model.nu}:", "        return"]
     begins.append("    t = data.time")
-    said, imports, helpers = [_SAID], ["import math", "import mujoco", "import numpy"], list[str]()
+    comments, imports, helpers = (
+        [_SAID],
+        ["import math", "import mujoco", "import numpy"],
+        list[str](),
+    )
     if any(law.corners for _, law in following):
-        said.append(_CORNERS)
+        comments.append(_CORNERS)
         begins += ["    h = model.opt.timestep", "    begin = begin_of_step(t, h)"]
         helpers += ["", "", *_BEGINS.splitlines()]
     if any(law.law == "table" for _, law in following):
         imports.insert(1, "from itertools import pairwise")
         helpers += ["", "", *getsource(under).splitlines()]
     code = [*imports, *helpers, *(["", ""] if helpers else []), *begins, *lines]
-    return commented(said) + "\n".join(
+    return commented(comments) + "\n".join(
         ["<!--", *code, "mujoco.set_mjcb_control(control)", "-->", ""]
     )
 
@@ -116,8 +120,8 @@ def drawn(text: str, scene: Scene, start: Start) -> str:
 
 def _longest(scene: Scene) -> float:
     """From a centre to a point of its body [m], of all."""
-    found = [np.linalg.norm(at) for body in scene.bodies.values() for at in body.points.values()]
-    return float(max(found, default=0.0)) or 1.0
+    lengths = [np.linalg.norm(at) for body in scene.bodies.values() for at in body.points.values()]
+    return float(max(lengths, default=0.0)) or 1.0
 
 
 def _geom(body: Any, small: float) -> dict[str, str]:

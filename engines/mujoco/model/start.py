@@ -21,20 +21,22 @@ Coordinates = tuple[list[float], list[float]]
 def started(scene: Scene, start: Start) -> dict[str, Coordinates]:
     """The start by MuJoCo's name of each body, and of each driven point, which is a body too."""
     tree = spanning_tree(scene)
-    found: dict[str, Coordinates] = {}
+    coordinates: dict[str, Coordinates] = {}
     for name in driven(scene):
         point = scene.points[name.partition(".")[2]].state(0.0)
         half = scene.frame.dimension
-        found[name] = list(point[:half]), list(point[half:])
+        coordinates[name] = list(point[:half]), list(point[half:])
     if scene.frame is PLANE:
         for branch in tree.branches:
-            pairs = [_in_plane(scene, tree, branch, one, start) for one in natives(scene, branch)]
-            found[called(branch.body)] = [q for q, _ in pairs], [v for _, v in pairs]
-        return found
+            pairs = [
+                _in_plane(scene, tree, branch, native, start) for native in natives(scene, branch)
+            ]
+            coordinates[called(branch.body)] = [q for q, _ in pairs], [v for _, v in pairs]
+        return coordinates
     motion = begun(scene, start)
     for branch in tree.branches:
-        found[called(branch.body)] = _in_space(scene, tree, branch, motion)
-    return found
+        coordinates[called(branch.body)] = _in_space(scene, tree, branch, motion)
+    return coordinates
 
 
 # In the plane: angles count whole turns, and a number that is given comes back to the last bit.

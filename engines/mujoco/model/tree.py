@@ -123,7 +123,7 @@ def natives(scene: Scene, branch: Branch) -> list[Native]:
     body, joint = scene.bodies[branch.body], branch.joint
     if joint is None:
         return _free(scene, body.name, turns=body.turns)
-    left = [
+    joints = [
         Native(
             coordinate(scene, joint, number),
             _TYPES[freedom.kind],
@@ -133,7 +133,7 @@ def natives(scene: Scene, branch: Branch) -> list[Native]:
         for number, freedom in enumerate(freedoms_left(scene, joint))
         if body.turns or freedom.kind == "shift"
     ]
-    return left if branch.forward else left[::-1]
+    return joints if branch.forward else joints[::-1]
 
 
 _TYPES = {"shift": "slide", "turn": "hinge", "ball": "ball"}

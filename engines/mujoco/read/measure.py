@@ -16,32 +16,32 @@ _ENTRIES = {"11": (0, 0), "22": (1, 1), "33": (2, 2), "12": (0, 1), "13": (0, 2)
 def measured(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:
     """The physics that MuJoCo holds, see `Engine.measure`."""
     axes = scene.frame.axes
-    found = {f"gravity.{axis}": model.opt.gravity[i] for i, axis in enumerate(axes)}
+    physics = {f"gravity.{axis}": model.opt.gravity[i] for i, axis in enumerate(axes)}
     for body in scene.bodies.values():
         number = model.body(called(body.name)).id
-        found[f"{body.name}.mass"] = model.body_mass[number]
+        physics[f"{body.name}.mass"] = model.body_mass[number]
         if body.turns and scene.frame is PLANE:
-            found[f"{body.name}.inertia"] = model.body_inertia[number, 2]
+            physics[f"{body.name}.inertia"] = model.body_inertia[number, 2]
         elif body.turns:
             held = tensor(model, number)
-            found |= {f"{body.name}.inertia_{ik}": held[at] for ik, at in _ENTRIES.items()}
+            physics |= {f"{body.name}.inertia_{ik}": held[at] for ik, at in _ENTRIES.items()}
     for contact in met(scene):
-        found[f"{contact.name}.friction"] = model.pair(contact.name).friction[0]
+        physics[f"{contact.name}.friction"] = model.pair(contact.name).friction[0]
     for joint in scene.joints.values():
         dry = joint.dry_friction
         if dry is not None and dry.kinetic.forward == dry.kinetic.backward:  # else a mean: neither
             loss = model.dof_frictionloss[model.joint(joint.name).dofadr[0]]
-            found[f"{joint.name}.friction_forward"] = loss
-            found[f"{joint.name}.friction_backward"] = loss
-    found |= numbers(scene, model)
+            physics[f"{joint.name}.friction_forward"] = loss
+            physics[f"{joint.name}.friction_backward"] = loss
+    physics |= numbers(scene, model)
     if not (any(driven(scene)) or scene.drives):  # their mass drowns the rest
         mujoco.mj_forward(model, data)
         mujoco.mj_energyVel(model, data)
         mujoco.mj_subtreeVel(model, data)
         momentum = data.subtree_linvel[0] * model.body_subtreemass[0]
-        found["energy.kinetic"] = data.energy[1]
-        found |= {f"momentum.{axis}": momentum[i] for i, axis in enumerate(axes)}
-    return {name: float(value) for name, value in found.items()}
+        physics["energy.kinetic"] = data.energy[1]
+        physics |= {f"momentum.{axis}": momentum[i] for i, axis in enumerate(axes)}
+    return {name: float(value) for name, value in physics.items()}
 
 
 def tensor(model: mujoco.MjModel, number: int) -> Array:

@@ -58,15 +58,15 @@ def _in_plane(
 def _hung(scene: Scene, branch: Branch, parent: Array, joint: Coordinate) -> Array:
     """The frame of a body that hangs on its parent's."""
     rows = np.zeros_like(parent)
-    found = natives(scene, branch)
+    joints = natives(scene, branch)
     if branch.joint is None:
-        for native in found:
+        for native in joints:
             rows[:, native.of], rows[:, VX + native.of] = joint(native.name)
         return rows
     rows[:, ANGLE], rows[:, OMEGA] = parent[:, ANGLE], parent[:, OMEGA]
     rows[:, ANGLE] += held_angle(scene, branch)
     before = rows.copy()
-    for native in (native for native in found if native.type == "hinge"):
+    for native in (native for native in joints if native.type == "hinge"):
         angle, omega = joint(native.name)
         rows[:, ANGLE] += native.axis[2] * angle
         rows[:, OMEGA] += native.axis[2] * omega
@@ -75,7 +75,7 @@ def _hung(scene: Scene, branch: Branch, parent: Array, joint: Coordinate) -> Arr
         rows[:, columns] = parent[:, columns]
         rows[:, columns] += _carried(parent, local(scene, outer), rate=rate)
         rows[:, columns] -= _carried(rows, local(scene, inner), rate=rate)
-    for native in (native for native in found if native.type == "slide"):
+    for native in (native for native in joints if native.type == "slide"):
         shift, speed = joint(native.name)
         line = before if branch.forward else rows  # it turns with the joint's first part
         axis, turning = _carried(line, native.axis), _carried(line, native.axis, rate=True)
@@ -117,7 +117,7 @@ def _in_space(
         for kept, view in zip(seen, views, strict=True):
             kept[i] = view
     places, attitudes, spins, centers = seen
-    found = {}
+    states = {}
     for name, body in scene.bodies.items():
         number = model.body(called(name)).id
         place, spin = places[:, number], spins[:, number]
@@ -132,8 +132,8 @@ def _in_space(
             rows[:, SPACE.spin] = turned(inverse(attitude), spin[:, :3])
         else:
             rows[:, SPACE.attitude] = UPRIGHT
-        found[name] = rows
-    return found
+        states[name] = rows
+    return states
 
 
 def _continuous(attitude: Array, first: Array) -> Array:

@@ -32,11 +32,11 @@ def joint_wrench(
         force = pulled(seen["efc_force"][:, number, :1], a, b)
         return np.hstack([force, np.zeros_like(force)])
     if joint in tree.loops:
-        found = np.zeros((len(at), 6))
+        wrench = np.zeros((len(at), 6))
         for name, _, site in connections(scene, joint):
             force = pinned(model, seen, name)
-            found += np.hstack([force, np.cross(_site(model, seen, site) - at, force)])
-        return found
+            wrench += np.hstack([force, np.cross(_site(model, seen, site) - at, force)])
+        return wrench
     branch = next(b for b in tree.branches if b.joint is joint)
     body = mujoco.mj_name2id(model, _OBJECT.mjOBJ_BODY, called(branch.body))
     # cfrc_int is what holds the subtree together with its parent: the joint's force, and what

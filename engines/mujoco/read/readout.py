@@ -71,24 +71,24 @@ def read(
     seen = _seen(model, data, times, record, names, dry, recall)
     wrench = cache(lambda part: joint_wrench(scene, tree, model, seen, scene.joints[part]))
     driving = {drive.effort: drive for drive in drives(scene)}
-    found: dict[str, Array] = {}
+    forces: dict[str, Array] = {}
     for name in reactions:
         part, _, field = name.partition(".")
         if field == "friction":
-            found[name] = dry.forces[part]
+            forces[name] = dry.forces[part]
         elif part in scene.constraints:
-            found[name] = seen["userdata"][:, fields(scene).index(name)]
+            forces[name] = seen["userdata"][:, fields(scene).index(name)]
         elif part in scene.bodies:
-            found[name] = acceleration(model, seen, part, field)
+            forces[name] = acceleration(model, seen, part, field)
         elif name in driving:
-            found[name] = effort(scene, tree, model, seen, driving[name], wrench(part))
+            forces[name] = effort(scene, tree, model, seen, driving[name], wrench(part))
         elif part in scene.joints:
-            found[name] = component(wrench(part), field)
+            forces[name] = component(wrench(part), field)
         elif part in strode(scene):
-            found[name] = pinned(model, seen, part)[:, ("tangent", "normal").index(field)]
+            forces[name] = pinned(model, seen, part)[:, ("tangent", "normal").index(field)]
         else:
-            found[name] = felt_force(scene, model, name, seen["sensordata"], seen["qfrc_applied"])
-    return found
+            forces[name] = felt_force(scene, model, name, seen["sensordata"], seen["qfrc_applied"])
+    return forces
 
 
 def _needed(scene: Scene, tree: Tree, reactions: tuple[str, ...]) -> set[str]:
@@ -148,10 +148,10 @@ def _equalities(model: mujoco.MjModel, probe: mujoco.MjData) -> Array:
 
     A `connect` has three rows, a tendon one.
     """
-    found, active = np.zeros((model.neq, 3)), probe.ne
+    forces, active = np.zeros((model.neq, 3)), probe.ne
     ids = tuple(probe.efc_id[:active].tolist())
-    found[_rows(ids)] = probe.efc_force[:active]
-    return found
+    forces[_rows(ids)] = probe.efc_force[:active]
+    return forces
 
 
 @lru_cache(maxsize=16)  # equalities are seldom switched: a run has a few such lists
@@ -181,5 +181,5 @@ def acceleration(model: mujoco.MjModel, seen: Seen, body: str, field: str) -> Ar
         return change[:, 2].copy()
     arm = seen["xipos"][:, i] - seen["subtree_com"][:, model.body_rootid[i]]
     velocity = rate[:, 3:] + np.cross(rate[:, :3], arm)
-    found = change[:, 3:] + np.cross(change[:, :3], arm) + np.cross(rate[:, :3], velocity)
-    return (found + model.opt.gravity)[:, FIELDS.index(field)]
+    growth = change[:, 3:] + np.cross(change[:, :3], arm) + np.cross(rate[:, :3], velocity)
+    return (growth + model.opt.gravity)[:, FIELDS.index(field)]

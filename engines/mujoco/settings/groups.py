@@ -15,6 +15,7 @@ import mujoco
 from ....cases.scene import Scene
 from ...engine import Choice, Start
 from ...foot_contact import strides
+from ...options import Check, number, numbers
 from ..model.contact import HARDEST, SOFTEST, recipe
 from ..model.force import limited
 from ..model.hinge import hinge
@@ -24,8 +25,8 @@ from ..model.loops import recipe as rods
 from ..model.planes import met
 from ..model.tree import dry_joints, spanning_tree
 
-SOFT = {"solref": (2,), "solimp": (3, 5)}
-"""The attributes that every group has, with how many numbers each takes."""
+SOFT = {"solref": numbers(2, follow=True), "solimp": numbers(3, 5)}
+"""The attributes that every group has, with what each may be."""
 
 Places = Callable[[Scene, mujoco.MjModel], Any]
 """Where in the arrays of the compiled model the group's numbers stand."""
@@ -51,7 +52,7 @@ class Group:
     default: str
     fields: Mapping[str, str]
     ending: str = ""
-    more: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    more: Mapping[str, Check] = field(default_factory=dict)
     places: Places = lambda scene, model: slice(None)
     single: Callable[[Scene], Mapping[str, Places]] | None = None
     springs: Sequence[list[Any]] = ()
@@ -66,9 +67,9 @@ class Group:
         return f"{self.word}.{self.attribute(name)}"
 
     @property
-    def sizes(self) -> dict[str, tuple[int, ...]]:
-        """How many numbers each of its attributes takes."""
-        return {self.attribute(name): size for name, size in SOFT.items()} | {**self.more}
+    def attributes(self) -> dict[str, Check]:
+        """What each of its attributes may be."""
+        return {self.attribute(name): check for name, check in SOFT.items()} | {**self.more}
 
 
 def groups(scene: Scene) -> list[Group]:
@@ -123,8 +124,8 @@ def _contacts(scene: Scene) -> dict[str, Places]:
 
 def _stops(scene: Scene) -> dict[str, Places]:
     return {
-        one.name: lambda scene, model, one=one: model.joint(hinge(scene, one).name).id
-        for one in limited(scene, "stop")
+        stops.name: lambda scene, model, stops=stops: model.joint(hinge(scene, stops).name).id
+        for stops in limited(scene, "stop")
     }
 
 
@@ -191,7 +192,7 @@ GROUPS: Mapping[str, Group] = {
             option="pair",
             default="geom",
             fields={"solref": "pair_solref", "solreffriction": "pair_solreffriction"},
-            more={"solreffriction": (2,), "margin": (1,)},
+            more={"solreffriction": SOFT["solref"], "margin": number()},
             single=_contacts,
             springs=(["-0.25/h2", "-1/h"], ["-0.04/h2", 0.0]),
             hardness=(SOFTEST,),

@@ -3,15 +3,18 @@
 A group's solref, solimp and solreffriction are one knob: they spoil each other alone.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from ...engine import Choice
+from ....cases.scene import Scene
+from ...engine import Start
 from ...knobs import Knob, Options, Value, short_value
-from ..model.contact import HARDEST
+from ..model.contact import HARDEST, closed, recipes, worth
 from ..model.number_text import EACH
-from .groups import Group
-from .user_options import as_options
+from ..model.planes import met
+from .groups import Group, groups
+from .options import as_options
+from .settings import best
 
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1e-4)  # s
 STAGES = {"RK4": 4}  # evaluations of the dynamics in a step; every other integrator takes one
@@ -22,51 +25,28 @@ _HARD, _MIDDLE = HARDEST, 0.99  # of d
 _STIFF = ("2h", "4h", "10h")  # time constants
 
 
-def knobs(
-    best: Sequence[Choice],
-    soft: Sequence[Group],
-    bundles: Mapping[str, Sequence[Choice]],
-    *,
-    lies: bool,
-    rubs: bool,
-) -> list[Knob]:
-    """The knobs that matter for the scene. best: the tuned recipe; soft: its groups.
-
-    bundles: the recipes for contacts that fit it. lies: whether something starts on the floor;
-    rubs: whether what touches has friction.
-    """
-    tuned = as_options(best, settled=lies)
-    found = [
-        Knob(
-            "integrator",
-            tuple(_of("integrator", word) for word in INTEGRATORS),
-            _of("integrator", tuned["integrator"]),
-        ),
-        *(_softness(group, tuned) for group in soft),
-    ]
-    if rubs:
-        found += _contacts(tuned)
+def knobs(scene: Scene, start: Start) -> list[Knob]:
+    """The knobs that matter for the scene."""
+    lies, bundles = closed(scene, start), worth(scene)
+    tuned = as_options(best(scene, start), settled=lies)
+    every = [_knob("integrator", INTEGRATORS, tuned)]
+    every += [_softness(group, tuned) for group in groups(scene)]
+    if any(contact.friction for contact in met(scene)):  # the pyramid's friction and its creep
+        every.append(_knob("cone", ["elliptic"], tuned))
+        every.append(_knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned))
     if "noslip_iterations" in tuned or bundles:
-        found.append(_knob("noslip_iterations", [5], tuned))
+        every.append(_knob("noslip_iterations", [5], tuned))
     if "diagexact" in tuned:
-        found.append(_knob("diagexact", [True], tuned))
+        every.append(_knob("diagexact", [True], tuned))
     if lies:
-        start = Value("a settled start", {"settled": True})
-        found.append(Knob("start", (start,), start, "ours"))
-        found.append(Knob("margin", (MARGIN,)))
+        settled = Value("a settled start", {"settled": True})
+        every.append(Knob("start", (settled,), settled, "ours"))
+        every.append(Knob("margin", (MARGIN,)))
     if bundles:
-        recipes = tuple(
-            Value(f"the recipe for contacts that {word}", as_options(choices, settled=False))
-            for word, choices in bundles.items()
-        )
-        found.append(Knob("contacts", recipes, kind="bundle"))
-    return found
-
-
-def _contacts(tuned: Options) -> Iterator[Knob]:
-    """The pyramid's friction and its creep."""
-    yield _knob("cone", ["elliptic"], tuned)
-    yield _knob("impratio", [10.0, 100.0, 1e4, 1e6], tuned)
+        numbers = {word: as_options(recipes(scene)[word](scene)) for word in bundles}
+        values = (Value(f"the recipe for contacts that {w}", x) for w, x in numbers.items())
+        every.append(Knob("contacts", tuple(values), kind="bundle"))
+    return every
 
 
 def _knob(name: str, values: Sequence[Any], tuned: Options) -> Knob:
@@ -100,20 +80,16 @@ def _softness(group: Group, tuned: Options) -> Knob:
         *(value(**{holds: hard}) for hard in hardness),
         *(value(**{pushes: spring, holds: hardness[0]}) for spring in springs[:2]),
     ]
-    numbers = {name: x for name, x in tuned.get(element, {}).items() if name in group.sizes}
-    best = value(**numbers) if numbers else None
-    if best and (own := _own(tuned, group)):
-        best = Value(f"{best.words}, {' and '.join(own)} otherwise", {**best.options, EACH: own})
-    if best and best.options not in [one.options for one in values]:
-        values.append(best)
-    return Knob(f"softness of {whose}", tuple(values), best)
-
-
-def _own(tuned: Options, group: Group) -> dict[str, Any]:
-    """By name, the numbers that the tuned recipe gives one contact, or one joint's stops, alone."""
-    given = tuned.get(EACH, {}).items() if group.single else ()
-    pushes = group.attribute("solref")
-    return {element: numbers for element, numbers in given if pushes in numbers}
+    numbers = {name: x for name, x in tuned.get(element, {}).items() if name in group.attributes}
+    tuned_value = value(**numbers) if numbers else None
+    alone = tuned.get(EACH, {}).items() if group.single else ()  # of one contact or joint's stops
+    own = {element: numbers for element, numbers in alone if pushes in numbers}
+    if tuned_value and own:
+        words = f"{tuned_value.words}, {' and '.join(own)} otherwise"
+        tuned_value = Value(words, {**tuned_value.options, EACH: own})
+    if tuned_value and tuned_value.options not in [known.options for known in values]:
+        values.append(tuned_value)
+    return Knob(f"softness of {whose}", tuple(values), tuned_value)
 
 
 def cost(options: Options, step: float) -> float:

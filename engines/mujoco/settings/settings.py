@@ -14,7 +14,7 @@ from ..model.contact import chosen, recipes
 from ..model.planes import met
 from ..model.tree import driven
 from .groups import groups, single
-from .user_options import OWN, overlaid
+from .options import OWN, overlaid
 
 SHIPPED_STEP = 2e-3  # s, the default of <option timestep>
 _DEFAULT = "MuJoCo's default"
@@ -88,9 +88,7 @@ def with_own(
 ) -> list[Choice]:
     """The shipped setting with other options on top: the user's own, or what `because` says."""
     word = options.get("contacts")
-    chosen_one = chosen(scene, start) if word == "scene" else word
-    contacts = recipes(scene)[chosen_one](scene) if met(scene) and chosen_one else []
-    on_top = overlaid(
-        shipped(scene), options, groups(scene), contacts, single=single(scene), because=because
-    )
+    word = chosen(scene, start) if word == "scene" else word
+    contacts = recipes(scene)[word](scene) if met(scene) and word else []
+    on_top = overlaid(shipped(scene), options, groups(scene), contacts, single(scene), because)
     return at_step(on_top, tied_to)

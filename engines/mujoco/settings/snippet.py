@@ -4,9 +4,13 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 from xml.etree import ElementTree as ET
 
+from ....cases.scene import Scene
+from ....cases.scene.frame import PLANE
 from ...engine import Choice
 from ...knobs import Options
-from ..model.number_text import EACH, attributes, written
+from ..model.contact import worth
+from ..model.force import BY_ITSELF
+from ..model.number_text import EACH, attributes, section, written
 from ..model.script import commented
 from .groups import GROUPS
 
@@ -60,17 +64,13 @@ def snippet(
         ET.SubElement(option, "flag", flags)
     default, beside = ET.Element("default"), list[str]()
     for word, group in GROUPS.items():
-        given, element = attributes(changed, word), group.default
-        pairs_alone = word == "pair" and _ALONE in given
-        mine = {} if pairs_alone else given
-        if mine:
-            found = default.find(element)
-            place = ET.SubElement(default, element) if found is None else found
-            if any(place.get(name, value) != value for name, value in mine.items()):
-                numbers = ", ".join(f"{name}={value!r}" for name, value in mine.items())
-                beside.append(f"each {element} of a {word} has {numbers} instead")
+        given = attributes(changed, word)
+        if given and not (word == "pair" and _ALONE in given):
+            place = section(default, group.default)
+            if any(place.get(name, value) != value for name, value in given.items()):
+                beside.append(f"each {group.default} of a {word} has {_listed(given)} instead")
             else:
-                place.attrib.update(mine)
+                place.attrib.update(given)
         if word == "pair" and given:
             ET.SubElement(default, "pair", given)
     beside += _keep(before | changed, changed, default)
@@ -99,13 +99,16 @@ def _keep(
 ) -> Iterator[str]:
     """A sentence for each group whose element of <default> has changed, but not its own numbers."""
     for word, group in GROUPS.items():
-        found = default.find(group.default)
-        if found is None or word == "pair" or attributes(changed, word):
+        place = default.find(group.default)
+        if place is None or word == "pair" or attributes(changed, word):
             continue
-        others = {n: x for n, x in attributes(numbers, word).items() if found.get(n, x) != x}
+        others = {n: x for n, x in attributes(numbers, word).items() if place.get(n, x) != x}
         if others:
-            own = ", ".join(f"{name}={value!r}" for name, value in others.items())
-            yield f"each {group.default} of a {word} keeps {own}"
+            yield f"each {group.default} of a {word} keeps {_listed(others)}"
+
+
+def _listed(numbers: Mapping[str, str]) -> str:
+    return ", ".join(f"{name}={value!r}" for name, value in numbers.items())
 
 
 def _pairs(frictions: Mapping[str, float]) -> str:
@@ -122,21 +125,14 @@ def _pairs(frictions: Mapping[str, float]) -> str:
     )
 
 
-def option_notes(
-    options: Options,
-    *,
-    contacts: bool,
-    plane: bool,
-    timed: bool,
-    rods: Collection[str],
-    drives: Collection[str],
-) -> list[str]:
+def option_notes(options: Options, scene: Scene, rods: Collection[str]) -> list[str]:
     """Notes on those of the options that no element says, and on how the scene is built.
 
-    timed: whether a control follows a law in time. rods: bodies that stand for its distances;
-    drives: joints that are driven.
+    rods: bodies that stand for its distances.
     """
-    notes = []
+    notes, contacts = list[str](), bool(worth(scene))
+    timed = any(law.law not in BY_ITSELF for law in scene.laws())
+    drives = sorted({quantity.partition(".")[0] for quantity in scene.drives})
     if rods:
         are = "is a body" if len(rods) == 1 else "are bodies"
         notes.append(
@@ -156,7 +152,7 @@ def option_notes(
         )
     if contacts and options.get("settled"):
         notes.append("starts as deep in the floor as it is carried there: the keyframe of `show`")
-    if contacts and plane and options.get("noslip_iterations"):
+    if contacts and scene.frame is PLANE and options.get("noslip_iterations"):
         notes.append(
             "noslip does nothing for a body that has no freedom along the third axis, and all else "
             "here counts on it: give such a body a slide along that axis, or it hardly has friction"

@@ -25,8 +25,8 @@ def answered(
     for name, body in world.bodies.items():
         if (moment := _moment(scene.bodies[name])) is not None:
             body.moment = moment
-    told = {name: _withheld(scene, name) for name in wanted}
-    seen: dict[str, list[float]] = {name: [] for name in wanted if not told[name]}
+    refusals = {name: _withheld(scene, name) for name in wanted}
+    seen: dict[str, list[float]] = {name: [] for name in wanted if not refusals[name]}
     for row in range(len(next(iter(states.values())))):
         for name, body in world.bodies.items():
             columns = [states.get(f"{name}.{own}") for own in ("x", "y", "angle")]
@@ -37,7 +37,7 @@ def answered(
             body.angle, body.angular_velocity = angle, omega
         for name, samples in seen.items():
             samples.append(_read(world, name))
-    return {**told, **{name: np.array(samples) for name, samples in seen.items()}}
+    return {**refusals, **{name: np.array(samples) for name, samples in seen.items()}}
 
 
 def _withheld(scene: Scene, name: str) -> str:

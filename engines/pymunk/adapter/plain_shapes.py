@@ -1,12 +1,10 @@
 """Whether a scene is built with the shapes that users have, and what is not read of it."""
 
 from collections.abc import Mapping
-from dataclasses import replace
-from functools import partial
 
 from ....cases.scene import Scene
 from ...engine import Plan, Start
-from ...plain_shapes import unsuited, with_box
+from ...plain_shapes import as_built, unsuited, with_box
 
 ONE_SUM = "adapter: shapes: what planes exert on a shape is read as one force"
 
@@ -24,12 +22,7 @@ def planned(plan: Plan, scene: Scene, start: Start, shape: str) -> Plan:
     """The plan with what is built, and what is not read."""
     several = scene.contacts if len(scene.contacts) > 1 else ()
     together = {f"{name}.{field}": ONE_SUM for name in several for field in ("normal", "tangent")}
-    said = partial(_protocol, words(scene, start, shape))
-    return replace(plan, protocol=said, withheld={**plan.withheld, **together})
-
-
-def _protocol(what: str, step: float) -> str:
-    return what
+    return as_built(plan, words(scene, start, shape), together)
 
 
 def words(scene: Scene, start: Start, shape: str) -> str:

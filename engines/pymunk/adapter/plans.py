@@ -17,10 +17,8 @@ from ..model.damping import slowing
 from ..model.edge import alone
 from ..model.pair import closed_pairs
 from ..model.slot import oblique
-from ..settings.recipe import Recipe
-from ..settings.user_options import Own
+from ..settings.options import Numbers
 
-Numbers = Recipe | Own
 NOMINAL = 1e-3  # s; whether a bias is 0 depends on no step
 SIGNED = ("fx", "fy", "torque", "drive", "friction")
 
@@ -89,10 +87,10 @@ def _spoilt(scene: Scene, realised: Realised) -> bool:
     met = bool(scene.pairs) or any(contact.switches for contact in scene.contacts.values())
     sided, roped = any(scene.one_sided()), any(scene.limits())
     jumps = (rubs or met) and any(law.corners for law in scene.laws())
-    told = brakes or jumps or strides(scene) or sided or roped
+    whole_steps = brakes or jumps or strides(scene) or sided or roped
     pulled = any(scene.gravity) or len(scene.forces) > len(slowing(scene))
     slowed = bool(slowing(scene)) and (pulled or met)
-    return told or (native and (damped(scene) or met or slowed))
+    return whole_steps or (native and (damped(scene) or met or slowed))
 
 
 def _withheld(scene: Scene, realised: Realised) -> dict[str, str]:

@@ -264,8 +264,8 @@ def shapes(world: World, of: Of) -> Iterator[str]:
         yield f"rim.friction, other.friction = {touching.friction!r}, {touched.friction!r}"
         both = f"{touching.elasticity!r}, {touched.elasticity!r}"
         yield f"rim.elasticity, other.elasticity = {both}"
-        told = f"categories={touching.filter.categories}, mask={touching.filter.mask}"
-        yield f"rim.filter = other.filter = pymunk.ShapeFilter({told})"
+        bits = f"categories={touching.filter.categories}, mask={touching.filter.mask}"
+        yield f"rim.filter = other.filter = pymunk.ShapeFilter({bits})"
         yield "space.add(rim, other)"
 
 

@@ -30,11 +30,11 @@ def cuts(scene: Scene) -> bool:
     """
     if not strides(scene) or any(foot.ahead_of is None for foot in scene.contacts.values()):
         return False
-    told = any(ELEMENTS[type(force)].tell for force in scene.forces.values())
-    told |= bool(scene.drives or scene.constraints) or any(scene.laws())
+    by_law = any(ELEMENTS[type(force)].tell for force in scene.forces.values())
+    by_law |= bool(scene.drives or scene.constraints) or any(scene.laws())
     gives = any(joint.dry_friction for joint in scene.joints.values()) or any(scene.limits())
     carried = any(oblique(scene, joint) for joint in scene.joints.values())
-    return not (told or gives or carried or scene.pairs or any(scene.one_sided()))
+    return not (by_law or gives or carried or scene.pairs or any(scene.one_sided()))
 
 
 class Strikes:
@@ -77,21 +77,21 @@ class Strikes:
 
     def _cut(self, step: float) -> None:
         self._drift(step / 2)
-        left = step
+        rest = step
         if late := [foot for foot in self.feet if foot.is_down and not foot.is_above]:
             # As the step before ended, by a little more than it had foreseen.
             self._strike(late)
         for _ in range(_PARTS * len(self.feet)):
             after = [
-                foot.after(left) for foot in self.feet if foot.is_above and foot.comes(0.0, left)
+                foot.after(rest) for foot in self.feet if foot.is_above and foot.comes(0.0, rest)
             ]
             if not after:
                 break
             self._part(min(after), step)
-            left -= min(after)
+            rest -= min(after)
             if down := [foot for foot in self.feet if foot.is_down]:
                 self._strike(down)
-        self._part(left, step)
+        self._part(rest, step)
         self._drift(-step / 2)
 
     def _part(self, length: float, step: float) -> None:

@@ -166,9 +166,9 @@ def throws_back(scene: Scene) -> str | None:
 
 
 def _limited(limit: Limit) -> Limited:
-    found = ELEMENTS[type(limit)].limit
-    assert found is not None, limit.word
-    return found
+    limited = ELEMENTS[type(limit)].limit
+    assert limited is not None, limit.word
+    return limited
 
 
 def damp(world: World, start: Start, realised: Realised) -> None:
@@ -254,13 +254,13 @@ def load(world: World, name: str, step: float) -> Callable[[float, float, State]
 
 def script(world: World, of: Callable[[Body], str], *, midpoint: bool) -> Iterator[str]:
     """Lines of Python that are run before each step; `of` is how a body is called."""
-    found = []
+    lines = []
     for force in world.scene.forces.values():
         if (text := ELEMENTS[type(force)].script) and force.name not in world.lines:
-            found += [f"    # {force.name}", *text(world, force, of, midpoint)]
-    if found:
+            lines += [f"    # {force.name}", *text(world, force, of, midpoint)]
+    if lines:
         yield f"    t = {'n * h + h / 2' if midpoint else 'n * h'}"
-        yield from found
+        yield from lines
 
 
 def _push(world: World, force: Push, step: float, drift: float) -> Apply:
@@ -365,11 +365,11 @@ ELEMENTS: dict[type[Force], Element] = {
 
 def lacking(scene: Scene, start: Start) -> list[tuple[Force, str]]:
     """The forces that pymunk has no element for, and why: our laws tell it them."""
-    found = ((force, ELEMENTS[type(force)].lacks) for force in scene.forces.values())
+    elements = ((force, ELEMENTS[type(force)].lacks) for force in scene.forces.values())
     one_sided = ((spring, NO_SIDE) for spring in scene.one_sided())
     slowed: list[tuple[Force, str]] = []
     if unlike := not_alike(scene, start):
         first, why = unlike  # and with it all of them: the space has one damping
         forces = sorted(slowing(scene), key=lambda force: force.name != first)
         slowed = [(scene.forces[force.name], why) for force in forces]
-    return [*slowed, *((force, why) for force, why in found if why), *one_sided]
+    return [*slowed, *((force, why) for force, why in elements if why), *one_sided]

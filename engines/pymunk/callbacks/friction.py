@@ -71,13 +71,13 @@ def laws(world: World, step: float) -> list[Told]:
     scene = world.scene
     if not ruled(scene):
         return []
-    found = [
+    by_joint = [
         _joint(world, joint, joint.dry_friction, step)
         for joint in scene.joints.values()
         if joint.dry_friction
     ]
     contacts = [c for c in scene.contacts.values() if _two_bounds(c)]
-    return [*found, *(_contact(world, contact, step) for contact in contacts)]
+    return [*by_joint, *(_contact(world, contact, step) for contact in contacts)]
 
 
 def _known_at_joint(scene: Scene, joint: Joint) -> bool:
@@ -113,16 +113,16 @@ def _joint(world: World, joint: Joint, friction: DryFriction, step: float) -> To
     brake, smooth = world.brakes[joint.name], friction.smooth
     slip = _slide(world, joint, step) if joint.shifts else turn(world, joint, step)
 
-    read, applied, told = slip.read, slip.applied, brake.max_force
+    read, applied, set_bound = slip.read, slip.applied, brake.max_force
 
     def exact(t: float) -> None:
-        nonlocal told
+        nonlocal set_bound
         state = read()
         limit, force = bound(
             friction, slip.speed(state), slip.mass, lambda ahead: applied(t, ahead, state), step
         )
-        if limit != told:
-            brake.max_force = told = limit
+        if limit != set_bound:
+            brake.max_force = set_bound = limit
         if force:
             slip.push(force, state)
 
@@ -282,8 +282,8 @@ def _from_rest(friction: DryFriction, middle: float, end: float) -> float:
     slipping = (abs(end) - static) / (2 * grown) if grown else 1.0
     if slipping >= 1:  # beyond the bound from the start
         return dry_friction(friction, 0.0, end)
-    left = slipping * (static - kinetic) + slipping**2 * grown
-    return -middle + (left if end > 0 else -left)
+    unbalanced = slipping * (static - kinetic) + slipping**2 * grown
+    return -middle + (unbalanced if end > 0 else -unbalanced)
 
 
 def _ahead(friction: DryFriction, applied: float) -> tuple[float, float]:
@@ -312,21 +312,21 @@ def smooth_mean(
     return force(_root(left, speed, slope=2 * mass, close=1e-9 * smooth.band))
 
 
-def _root(left: Callable[[float], float], near: float, *, slope: float, close: float) -> float:
+def _root(residual: Callable[[float], float], near: float, *, slope: float, close: float) -> float:
     """A zero of `left`, which is negative far below and positive far above, beside `near`.
 
     Illinois' regula falsi needs no derivative and never leaves the bracket; the bracket ends a
     little beyond where `left` would be zero if it only had that slope.
     """
-    here = left(near)
+    here = residual(near)
     reach = -1.001 * here / slope
     far = near + reach
-    while (there := left(far)) * here > 0:
+    while (there := residual(far)) * here > 0:
         near, here, reach = far, there, 2 * reach
         far += reach
     while here and there and abs(far - near) > close:
         middle = (near * there - far * here) / (there - here)
-        now = left(middle)
+        now = residual(middle)
         if now * there < 0:
             near, here = far, there
         else:

@@ -161,9 +161,9 @@ def advanced(
 
 def states(world: World, times: Array, step: float) -> dict[str, Array]:
     """(N,) of each inner state, by quantity: between middles, and beyond the last as before it."""
-    found = {}
+    inner = {}
     for name, kept in world.inner.items():
         middles = np.append(0.0, (np.arange(len(kept) - 1) + 0.5) * step)
         values = np.append(kept, kept[-1] + (kept[-1] - kept[-2]) if len(kept) > 2 else kept[-1])
-        found[name] = np.interp(times, np.append(middles, middles[-1] + step), values)
-    return found
+        inner[name] = np.interp(times, np.append(middles, middles[-1] + step), values)
+    return inner

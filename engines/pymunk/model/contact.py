@@ -57,10 +57,10 @@ def circle(scene: Scene, contact: Contact, body: Body) -> Circle:
 
 def planes(scene: Scene) -> dict[Plane, ShapeFilter]:
     """The planes that are touched, each with what its segment is told."""
-    found = list(dict.fromkeys(contact.plane for contact in scene.contacts.values()))
-    if len(found) < 2 and not scene.pairs:
-        return dict.fromkeys(found, ShapeFilter())
-    return {plane: ShapeFilter(categories=1 << i) for i, plane in enumerate(found)}
+    planes = list(dict.fromkeys(contact.plane for contact in scene.contacts.values()))
+    if len(planes) < 2 and not scene.pairs:
+        return dict.fromkeys(planes, ShapeFilter())
+    return {plane: ShapeFilter(categories=1 << i) for i, plane in enumerate(planes)}
 
 
 def only(shape: Circle, plane: ShapeFilter) -> None:

@@ -24,10 +24,10 @@ MOST = 32  # bits of a category: one for each plane and pair
 def add_pairs(world: World, first: int) -> None:
     """Two shapes for each pair, with a category of their own; the planes have those below first."""
     for i, pair in enumerate(world.scene.pairs.values(), first):
-        told = ShapeFilter(categories=1 << i, mask=1 << i)
+        bits = ShapeFilter(categories=1 << i, mask=1 << i)
         both = _touching(world, pair), _touched(world, pair)
         for shape in both:
-            shape.filter = told
+            shape.filter = bits
         world.pairs[pair.name] = both
         world.space.add(*both)
 
@@ -48,8 +48,8 @@ def _touched(world: World, pair: Pair) -> Circle | Segment:
     if pair.face is None:
         shape = Circle(body, pair.reach(scene.bodies))
     else:
-        one, two = (scene.bodies[pair.touched].points[end] for end in pair.side.ends)
-        shape = Segment(body, one, two, 0.0)
+        first, last = (scene.bodies[pair.touched].points[end] for end in pair.side.ends)
+        shape = Segment(body, first, last, 0.0)
     shape.friction, shape.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
     return shape
 
@@ -72,13 +72,13 @@ def pair_followers(world: World, step: float, *, reflects: bool) -> list[Follow]
     """Before each step keep the circles over their points, and, as `contact.follower` has it, what
     stays in contact has elasticity 1: one rim's path around another, too, is curved.
     """
-    found: list[Follow] = []
+    follows: list[Follow] = []
     for pair in world.scene.pairs.values():
         if not pair.radius(world.scene.bodies):
-            found.append(_over(world, pair, step))
+            follows.append(_over(world, pair, step))
         if reflects:
-            found.append(_reflecting(world, pair))
-    return found
+            follows.append(_reflecting(world, pair))
+    return follows
 
 
 def _over(world: World, pair: Pair, step: float) -> Follow:
@@ -128,13 +128,13 @@ def _bodies(world: World, pair: Pair) -> tuple[Body, Body]:
 def closed_pairs(scene: Scene, start: Start) -> list[Pair]:
     """The pairs that touch at the start, and are not about to part."""
     motion = begun(scene, start)
-    found = []
+    lines = []
     for pair in scene.pairs.values():
         gap, parting = pair.normal_and_gap(motion)[1][0], pair.slip_and_gap_rate(motion)[1][0]
         fastest = max(math.hypot(*start[name][3:5]) for name in (pair.body, pair.touched))
         if abs(gap) <= TOUCHING and parting <= TOUCHING * fastest:
-            found.append(pair)
-    return found
+            lines.append(pair)
+    return lines
 
 
 def press(world: World, pair: Pair, depth: float) -> None:

@@ -18,10 +18,10 @@ def helpers(laws: Iterable[Signal]) -> list[str]:
     """Lines with the functions that a script has to define for the laws."""
     if all(law.law != "table" for law in laws):
         return []
-    found = ["from bisect import bisect_right", "from itertools import pairwise"]
+    lines = ["from bisect import bisect_right", "from itertools import pairwise"]
     for helper in (table, under):
-        found += ["", "", *getsource(helper).splitlines()]
-    return [*found, ""]
+        lines += ["", "", *getsource(helper).splitlines()]
+    return [*lines, ""]
 
 
 def _polynomial(law: Signal) -> str:

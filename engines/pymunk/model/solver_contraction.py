@@ -71,9 +71,9 @@ def _steps(world: World) -> Iterator[tuple[Array, Array, Array]]:
         rows = _parting(world, pair, columns, len(weights)) * weights
         yield rows, np.diag(1 / np.sum(rows**2, axis=1)), rows
     for joint in world.space.constraints:
-        found = _joint(world.space, joint, columns, len(weights))
-        if found is not None:
-            rows, normal = found[0] * weights, found[1]
+        of_joint = _joint(world.space, joint, columns, len(weights))
+        if of_joint is not None:
+            rows, normal = of_joint[0] * weights, of_joint[1]
             yield rows, normal @ np.linalg.inv(rows @ rows.T), normal @ rows
 
 

@@ -50,16 +50,16 @@ def _ways(world: World, rows: Array) -> Iterator[tuple[str, float, Array, Array]
     Of each its name, its reach [m], where along it a body is and how fast (N,).
     """
     states = np.moveaxis(rows[:, :, [0, 1, 3, 4]], 1, 0).reshape(-1, len(rows), 2, 2)
-    found = dict(zip(world.bodies, states, strict=True))
+    by_body = dict(zip(world.bodies, states, strict=True))
     still = np.zeros((len(rows), 2, 2))
     for contact in world.scene.contacts.values():
         plane = contact.plane
-        place, velocity = np.moveaxis(found[contact.body], 1, 0)
+        place, velocity = np.moveaxis(by_body[contact.body], 1, 0)
         way, speed = (place - plane.at) @ plane.along, velocity @ plane.along
         yield f"{contact.name}'s {plane.name}", world.reach, way, speed
     for joint in world.scene.joints.values():
         if joint.shifts:
-            apart = found.get(joint.b.body, still) - found.get(joint.a.body, still)
+            apart = by_body.get(joint.b.body, still) - by_body.get(joint.a.body, still)
             place, velocity = np.moveaxis(apart, 1, 0)
             way, speed = np.linalg.norm(place, axis=1), np.linalg.norm(velocity, axis=1)
             away = np.sum(place * velocity, axis=1)
@@ -76,8 +76,8 @@ def _held(world: World, rows: Array, times: Array, step: float) -> None:
     lately = np.linalg.norm(np.diff(rows[:, :, 3:5], axis=0), axis=2) / np.diff(times)[:, None]
     rates = np.append(0.0, np.max(lately, axis=1))
     change = step * np.maximum(rates, math.hypot(*world.space.gravity))
-    left = np.max([np.zeros(len(rows)), *_left(world, rows, times, step)], axis=0)
-    torn = left > change
+    worst = np.max([np.zeros(len(rows)), *_left(world, rows, times, step)], axis=0)
+    torn = worst > change
     if not torn.any():
         return
     first = int(np.argmax(torn))
@@ -93,7 +93,7 @@ def _held(world: World, rows: Array, times: Array, step: float) -> None:
         raise Diverged(
             f"pymunk: the sweeps were not enough: {world.space.iterations} a step, where the "
             f"joints need more than {needed:.0f}; at t = {times[first]:g} s they leave "
-            f"{left[first]:.2g} m/s"
+            f"{worst[first]:.2g} m/s"
         )
 
 

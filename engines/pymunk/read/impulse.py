@@ -98,19 +98,19 @@ def _way(world: World, name: str, what: str) -> Vector:
 
 def _contacts(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, str]]:
     """The bodies with wanted contacts, each with all of its own."""
-    found: dict[Body, dict[Shape, str]] = {}
+    by_body: dict[Body, dict[Shape, str]] = {}
     for name, shape in world.touching.items():
-        found.setdefault(world.wheel(name), {})[shape] = name
-    return {body: names for body, names in found.items() if wanted & set(names.values())}
+        by_body.setdefault(world.wheel(name), {})[shape] = name
+    return {body: names for body, names in by_body.items() if wanted & set(names.values())}
 
 
 def _pairs(world: World, wanted: set[str]) -> Mapping[Body, Mapping[Shape, str]]:
     """The bodies that touch others in wanted pairs, each with what touches."""
-    found: dict[Body, dict[Shape, str]] = {}
+    names: dict[Body, dict[Shape, str]] = {}
     for name, (touching, _) in world.pairs.items():
         if name in wanted:
-            found.setdefault(world.bodies[world.scene.pairs[name].body], {})[touching] = name
-    return found
+            names.setdefault(world.bodies[world.scene.pairs[name].body], {})[touching] = name
+    return names
 
 
 def _one(arbiter: Arbiter, names: Mapping[Shape, str], felt: Planes) -> None:

@@ -66,13 +66,13 @@ def sampled(
     ahead = step / 2 if midpoint else 0.0
     sound(world, rows, times - ahead, step)
     rows[:, :, :3] += ahead * rows[:, :, 3:]
-    found = np.reshape(kept, (len(wanted), len(reactions)))
+    forces = np.reshape(kept, (len(wanted), len(reactions)))
     places = np.searchsorted(sorted(wanted), stops) if reactions else stops
     return Trajectory(
         times,
         {name: rows[:, i] for i, name in enumerate(world.bodies)},
         {
-            name: np.sum(weights * found[places, i], axis=1) / step
+            name: np.sum(weights * forces[places, i], axis=1) / step
             for i, name in enumerate(reactions)
         },
     )

@@ -3,79 +3,47 @@
 Left out are collision_persistence, max_bias and damping: inert, or another physics.
 """
 
-from collections.abc import Iterator
 from functools import cache
-from typing import Any
 
 from ....cases.scene import Scene
 from ...engine import Cost, Start
-from ...knobs import Knob, Options, Value, short_value
+from ...knobs import Kind, Knob, Options, Value, short_value
 from ..stepping.scene import build
-from .options import BY_THE_SCENE
-from .settings import defaults
-from .user_options import as_options, own
+from .options import BY_THE_SCENE, defaults, own
+from .recipe import as_options
 
-STEPS = (
-    0.02,
-    0.01,
-    5e-3,
-    2.5e-3,
-    1e-3,
-    5e-4,
-    2.5e-4,
-)  # s; a finer one costs 100 times pymunk's own
+STEPS = (0.02, 0.01, 5e-3, 2.5e-3, 1e-3, 5e-4, 2.5e-4)  # s; a finer one costs 100 times pymunk's
+_WORDS: dict[str, tuple[str, Kind]] = {
+    "midpoint": ("midpoint", "protocol"),
+    "error_bias": ("error_bias {}", "option"),
+    "iterations": ("iterations {}", "option"),
+    "limit_bias": ("limit_bias {}", "option"),
+    "seed": ("a seed of {} m", "protocol"),
+    "collision_slop": ("collision_slop {}", "option"),
+    "collision_bias": ("collision_bias {}", "option"),
+    "reflects": ("tips that reflect", "ours"),
+    "across": ("pin joints across slots", "ours"),
+}
 
 
 def knobs(scene: Scene, start: Start) -> list[Knob]:
     """The knobs that matter for the scene."""
-    tuned = as_options(scene, start)
-    found = [Knob("midpoint", (_ON["midpoint"],), _ON["midpoint"], "protocol")]
-    if "error_bias" in tuned:
-        closed = Value("error_bias 0", {"error_bias": 0.0})
-        share = Value("error_bias by the scene", {"error_bias": BY_THE_SCENE})
-        best = share if tuned["error_bias"] == BY_THE_SCENE else closed
-        found.append(Knob("error_bias", (closed,), best))
-    if "iterations" in tuned:
-        found.append(_sweeps(tuned))
-    if "limit_bias" in tuned:
-        eases = Value("limit_bias by the scene", {"limit_bias": tuned["limit_bias"]})
-        found.append(Knob("limit_bias", (eases,), eases))
-    return [*found, *_contacts(tuned), *_slots(tuned)]
-
-
-_ON = {
-    "midpoint": Value("midpoint", {"midpoint": True}),
-    "across": Value("pin joints across slots", {"across": True}),
-    "reflects": Value("tips that reflect", {"reflects": True}),
-}
-
-
-def _sweeps(tuned: Options) -> Knob:
-    names = ("iterations", "start_iterations")
-    numbers = (Value(f"{n} iterations", {"iterations": n}) for n in (30, 100))
-    best = Value("iterations by the scene", {name: tuned[name] for name in names})
-    return Knob("iterations", (*numbers, best), best)
-
-
-def _contacts(tuned: Options) -> Iterator[Knob]:
-    """The seed, and what helps beside others only."""
-    if "seed" in tuned:
-        seed = Value(f"a seed of {short_value(tuned['seed'])} m", {"seed": tuned["seed"]})
-        yield Knob("seed", (seed,), seed, "protocol")
-    for name in ("collision_slop", "collision_bias"):
-        if name in tuned:
-            yield Knob(name, (), _number(name, tuned[name]))
-    if "reflects" in tuned:
-        yield Knob("reflects", (_ON["reflects"],), _ON["reflects"], "ours")
-
-
-def _slots(tuned: Options) -> Iterator[Knob]:
-    if "across" in tuned:
-        yield Knob("across", (_ON["across"],), _ON["across"], "ours")
-
-
-def _number(name: str, value: Any) -> Value:
-    return Value(f"{name} {short_value(value)}", {name: value})
+    tuned, known = as_options(scene, start), list[Knob]()
+    for name, (words, kind) in _WORDS.items():
+        if name not in tuned:
+            continue
+        number = tuned[name]
+        size = "by the scene" if number == BY_THE_SCENE else short_value(number)
+        together = (name, "start_iterations") if name == "iterations" else (name,)
+        best = Value(words.format(size), {each: tuned[each] for each in together})
+        tried: dict[str, list[Value]] = {
+            "error_bias": [Value("error_bias 0", {name: 0.0})],
+            "iterations": [*(Value(f"{n} iterations", {name: n}) for n in (30, 100)), best],
+            "collision_slop": [],  # of use beside others only
+            "collision_bias": [],
+        }
+        known.append(Knob(name, tuple(tried.get(name, [best])), best, kind))
+    return known
 
 
 # Measured in scenes of 0 to 40 bodies, in sweeps over one joint (19 ns on the common machine).
@@ -98,8 +66,8 @@ def cost(scene: Scene, start: Start) -> Cost:
         return next(choice.value for choice in choices if choice.name == "space.iterations")
 
     def of(options: Options, step: float) -> float:
-        told = options.get("iterations", shipped)
-        sweeps = needed() if told == BY_THE_SCENE else told
+        given = options.get("iterations", shipped)
+        sweeps = needed() if given == BY_THE_SCENE else given
         return (still + sweeps * swept) / (still + shipped * swept) / step
 
     return of

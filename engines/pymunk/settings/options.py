@@ -1,96 +1,138 @@
-"""A user's own options: which there are, and which values pymunk takes."""
+"""pymunk's options: which there are, and a setting's numbers with the user's own among them."""
 
-import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
+from math import inf
 from typing import Any
 
-from ...plain_shapes import CUBE, PLAIN
-from ..model.plain_shapes import SHAPES
+from pymunk.body import Body
+from pymunk.constraints import GearJoint
+from pymunk.space import Space
 
+from ....cases.scene import Scene
+from ...engine import Choice, Start
+from ...options import STEP, SWITCH, Check, mistakes_in, number, word
+from ...plain_shapes import CUBE, PLAIN
+from ..model.contact import is_tip
+from ..model.limit import eases
+from ..model.plain_shapes import SHAPES
+from ..model.slot import oblique
+from .solver_iterations import Holding, holding
+
+SHIPPED_STEP = 0.01  # s; pymunk has no step of its own, and its examples use 1/50 to 1/100
 BY_THE_SCENE = "scene"  # instead of a number: as many as the scene needs
-CONSTRAINT = ("error_bias", "max_bias")
-PROTOCOL = {
-    "midpoint": "time.midpoint",
-    "seed": "start.seed",
-    "start_iterations": "start.iterations",
-    "across": "slot.across",
-    "reflects": "contact.reflects",
-    "limit_bias": "limit.error_bias",
-    "shapes": SHAPES,
-}
-"""What is done around the engine, with its name among a setting's numbers."""
+
+
+def _has_joints(scene: Scene) -> bool:
+    return bool(scene.joints) or any(scene.limits())
+
+
+def _touches(scene: Scene) -> bool:
+    return bool(scene.pressed)
+
+
+def _has_tips(scene: Scene) -> bool:
+    return bool(scene.pairs) or any(is_tip(scene, contact) for contact in scene.contacts.values())
 
 
 @dataclass(frozen=True)
-class _Number:
-    """From the least to the largest value; scene: or the word that leaves it to the scene."""
+class Option:
+    """An option: its name among a setting's numbers, its values, and the scenes that feel it.
 
-    least: float
-    largest: float = math.inf
-    whole: bool = False
-    scene: bool = False
+    A name of `space` or `constraint` is pymunk's attribute, with a default; others are what is done
+    around the engine, which nobody does who does not ask for it.
+    """
+
+    name: str
+    check: Check
+    matters: Callable[[Scene], bool] = lambda scene: True
 
 
-# Outside of it pymunk aborts the process (iterations, biases) or silently does nonsense:
+_SWEEPS = number(1, 1e6, whole=int, otherwise=BY_THE_SCENE)
+_SHARE = number(0, 1, otherwise=BY_THE_SCENE)
+# Outside of its bounds pymunk aborts the process (iterations, biases) or silently does nonsense:
 # collision_persistence = 0 lets everything fall through the floor.
-_NUMBERS = {
-    "step": _Number(math.ulp(0.0)),
-    "iterations": _Number(1, 1e6, whole=True, scene=True),
-    "damping": _Number(0),
-    "error_bias": _Number(0, 1, scene=True),
-    "max_bias": _Number(0),
-    "collision_slop": _Number(0),
-    "collision_bias": _Number(0, 1),
-    "collision_persistence": _Number(1, 1e6, whole=True),
-    "seed": _Number(0, 1e-3),  # deeper, what touches would be thrown out
-    "start_iterations": _Number(1, 1e6, whole=True, scene=True),
-    "limit_bias": _Number(0, 1, scene=True),
+OPTIONS: Mapping[str, Option] = {
+    "iterations": Option("space.iterations", _SWEEPS),
+    "damping": Option("space.damping", number()),
+    "error_bias": Option("constraint.error_bias", _SHARE, _has_joints),
+    "max_bias": Option("constraint.max_bias", number(0, inf), _has_joints),
+    "collision_slop": Option("space.collision_slop", number(), _touches),
+    "collision_bias": Option("space.collision_bias", number(0, 1), _touches),
+    "collision_persistence": Option(
+        "space.collision_persistence", number(1, 1e6, whole=int), _touches
+    ),
+    "midpoint": Option("time.midpoint", SWITCH),
+    # deeper, what touches would be thrown out
+    "seed": Option("start.seed", number(0, 1e-3), _touches),
+    "start_iterations": Option("start.iterations", _SWEEPS),
+    "across": Option(
+        "slot.across", SWITCH, lambda scene: any(oblique(scene, j) for j in scene.joints.values())
+    ),
+    "reflects": Option("contact.reflects", SWITCH, _has_tips),
+    "limit_bias": Option("limit.error_bias", _SHARE, lambda scene: any(scene.limits())),
+    "shapes": Option(SHAPES, word(PLAIN, CUBE)),
 }
-_SWITCHES = ("midpoint", "across", "reflects")
-_NAMES = (*_NUMBERS, *_SWITCHES, "shapes")
-
-
-def full(name: str) -> str:
-    """The option's name among a setting's numbers: whose attribute it is."""
-    return PROTOCOL.get(name) or f"{'constraint' if name in CONSTRAINT else 'space'}.{name}"
+_mistakes = mistakes_in({"step": STEP, **{name: known.check for name, known in OPTIONS.items()}})
 
 
 def check(options: Mapping[str, Any]) -> None:
     """Raises ValueError with all mistakes: unknown names with the nearest right one, and values."""
-    mistakes = [text for name, value in options.items() for text in _mistakes(name, value)]
-    if mistakes:
+    if mistakes := [*_mistakes("pymunk", options)]:
         raise ValueError("\n".join(mistakes))
 
 
-def _mistakes(name: str, value: Any) -> Iterator[str]:
-    if name not in _NAMES:
-        close = get_close_matches(str(name), _NAMES, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(_NAMES)}"
-        yield f"pymunk.{name}: unknown option; {hint}"
-    elif name in _SWITCHES:
-        if not isinstance(value, bool):
-            yield f"pymunk.{name}: should be true or false, is {value!r}"
-    elif name == "shapes":
-        if value not in (PLAIN, CUBE):
-            yield f"pymunk.shapes: should be {PLAIN} or {CUBE}, is {value!r}"
-    elif not _right(name, value, _NUMBERS[name]):
-        yield f"pymunk.{name}: should be {_what(name, _NUMBERS[name])}, is {value!r}"
+def defaults() -> dict[str, Any]:
+    """As pymunk has them: some are single precision, and typed ones would change the motion."""
+    parts = {"space": Space(), "constraint": GearJoint(Body(1, 1), Body(1, 1), 0.0, 1.0)}
+    known = ((option.name, *option.name.split(".")) for option in OPTIONS.values())
+    return {name: getattr(parts[part], what) for name, part, what in known if part in parts}
 
 
-def _right(name: str, value: Any, known: _Number) -> bool:
-    if known.scene and value == BY_THE_SCENE:
-        return True
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    finite = name == "max_bias" or (number and value < math.inf)
-    within = number and finite and known.least <= value <= known.largest
-    return within and (not known.whole or isinstance(value, int))
+@dataclass(frozen=True)
+class Numbers:
+    """A setting's numbers for a scene, by the step [s].
+
+    by_scene: the names of those that the scene decides; held: what it asks of its joints.
+    """
+
+    always: tuple[Choice, ...]
+    by_scene: tuple[str, ...]
+    held: Holding | None
+
+    def __call__(self, step: float) -> Sequence[Choice]:
+        """The numbers for a step [s]."""
+        held = self.held.choices(step) if self.held else []
+        known = {choice.name: choice for choice in (*held, eases(step))}
+        asked = [known[name] for name in self.by_scene if name in known]
+        return list({choice.name: choice for choice in (*self.always, *asked)}.values())
+
+    @property
+    def biased(self) -> bool:
+        """Whether the bias of joints follows the step."""
+        return "constraint.error_bias" in self.by_scene and bool(self.held and self.held.biased)
+
+    @property
+    def follows(self) -> bool:
+        """Whether a number follows the step."""
+        return self.biased or "limit.error_bias" in self.by_scene
 
 
-def _what(name: str, known: _Number) -> str:
-    kind = "whole number" if known.whole else "number"
-    if name == "step":
-        return f"a {kind} above 0 seconds"
-    to = f" to {known.largest:g}" if known.largest < math.inf else " on"
-    return f"a {kind} from {known.least:g}{to}" + (", or scene" if known.scene else "")
+def own(options: Mapping[str, Any], scene: Scene, start: Start) -> Numbers:
+    """The shipped numbers with the user's own on top; with a rehearsal, if the scene decides."""
+    felt = {name: known.name for name, known in OPTIONS.items() if known.matters(scene)}
+    given = {felt[option]: value for option, value in options.items() if option in felt}
+    by_scene = tuple(name for name, value in given.items() if value == BY_THE_SCENE)
+    always = tuple(_chosen(felt.values(), given))
+    return Numbers(always, by_scene, holding(scene, start) if by_scene else None)
+
+
+def _chosen(names: Iterable[str], given: Mapping[str, Any]) -> Iterator[Choice]:
+    """Choices of what is given, and of pymunk's attributes that are not."""
+    shipped = defaults()
+    for name in names:
+        value = given.get(name, BY_THE_SCENE)
+        if name in shipped and value == BY_THE_SCENE:
+            yield Choice(name, shipped[name], "pymunk's default")
+        elif value not in (False, BY_THE_SCENE) or name in shipped:
+            yield Choice(name, value, "your own option")

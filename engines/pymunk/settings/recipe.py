@@ -4,15 +4,16 @@
 engine, see run.py and slot.py.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Any
 
-from ....cases.scene import GROUND, Contact, Scene, Vector
+import numpy as np
+
+from ....cases.scene import GROUND, Contact, Scene
 from ...engine import Choice, Start
 from ..model.contact import closed, is_tip
-from ..model.limit import eases
 from ..model.slot import oblique
-from .solver_iterations import Holding, holding
+from .options import BY_THE_SCENE, OPTIONS, Numbers
+from .solver_iterations import holding
 
 _MIDPOINT = Choice(
     "time.midpoint",
@@ -78,32 +79,7 @@ _TIP_SLOP = Choice(
 )
 
 
-@dataclass(frozen=True)
-class Recipe:
-    """The best numbers for a scene, by the step [s]."""
-
-    always: tuple[Choice, ...]
-    held: Holding | None
-    limited: bool  # whether there are ropes or stops
-
-    def __call__(self, step: float) -> Sequence[Choice]:
-        """The numbers for a step [s]."""
-        joints = self.held.choices(step) if self.held else []
-        limits = [eases(step)] if self.limited else []  # the last: they are joints, too
-        return [*self.always, *joints, *limits]
-
-    @property
-    def biased(self) -> bool:
-        """Whether the bias of joints follows the step."""
-        return self.held is not None and self.held.biased
-
-    @property
-    def follows(self) -> bool:
-        """Whether a number follows the step."""
-        return self.biased or self.limited
-
-
-def recipe(scene: Scene, start: Start) -> Recipe:
+def recipe(scene: Scene, start: Start) -> Numbers:
     """The best recipe; what nothing would feel is left as it is shipped."""
     always = [_MIDPOINT]
     contacts = [contact for contact in scene.contacts.values() if contact.switches]
@@ -120,17 +96,27 @@ def recipe(scene: Scene, start: Start) -> Recipe:
         always += [_LANDING] if all(_rises(scene, contact) for contact in stays) else []
     if any(oblique(scene, joint) for joint in scene.joints.values()):
         always.append(_ACROSS)
-    return Recipe(tuple(always), holding(scene, start), any(scene.limits()))
+    held = holding(scene, start)
+    by_scene = ["constraint.error_bias", "space.iterations", "start.iterations"] if held else []
+    by_scene += ["limit.error_bias"] if any(scene.limits()) else []  # the last: they are joints
+    return Numbers(tuple(always), tuple(by_scene), held)
+
+
+def as_options(scene: Scene, start: Start) -> dict[str, Any]:
+    """The tuned recipe as own options; what it finds in the scene is left to the scene."""
+    best = recipe(scene, start)
+    numbers = {choice.name: choice.value for choice in best.always}
+    decided = ("limit.error_bias", "space.iterations", "start.iterations")
+    numbers |= {name: BY_THE_SCENE for name in decided if name in best.by_scene}
+    numbers["constraint.error_bias"] = BY_THE_SCENE if best.biased else 0.0
+    option = {known.name: option for option, known in OPTIONS.items() if known.matters(scene)}
+    return {option[name]: value for name, value in numbers.items() if name in option}
 
 
 def _lies(scene: Scene, start: Start) -> bool:
     """Whether a body starts on a plane with two of its points."""
     on = [(c.body, c.plane.name) for c in closed(scene, start) if is_tip(scene, c)]
     return len(set(on)) < len(on)
-
-
-def _across(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1]
 
 
 def _rises(scene: Scene, contact: Contact) -> bool:
@@ -141,7 +127,7 @@ def _rises(scene: Scene, contact: Contact) -> bool:
     if contact.restitution:
         return False
     return all(
-        joint.shifts and joint.a.body == GROUND and not _across(joint.along, contact.plane.along)
+        joint.shifts and joint.a.body == GROUND and not np.dot(joint.along, contact.plane.along)
         for joint in scene.joints.values()
         if contact.body in (joint.a.body, joint.b.body)
     )

@@ -6,7 +6,7 @@ from typing import Any
 from ...engine import Choice
 from ..model.number_text import written
 from ..stepping.run import COLD
-from .settings import defaults
+from .options import defaults
 
 _SWEEPS = "space.iterations"
 _GIVE_WAY = "(pymunk.SlideJoint, pymunk.RotaryLimitJoint)"

@@ -84,20 +84,20 @@ def _between(
     """A function that takes the steps from one number up to another."""
     if cuts(world.scene):
         return _cutting(Strikes(world, numbers.get("start.seed", 0.0)), step, keep)
-    one, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
+    take, midpoint = world.space.step, bool(numbers.get("time.midpoint"))
     reflects = bool(numbers.get("contact.reflects"))
     applied = forces(world, step, midpoint=midpoint, law=realised != "native", reflects=reflects)
 
     def free(first: int, last: int) -> None:
         for _ in repeat(None, last - first):
-            one(step)
+            take(step)
 
     def forced(first: int, last: int) -> None:
         for i in range(first, last):
             t = i * step
             for apply in applied:
                 apply(t)
-            one(step)
+            take(step)
 
     if keep is None:
         return forced if applied else free
@@ -107,12 +107,12 @@ def _between(
             t = i * step
             for apply in applied:
                 apply(t)
-            one(step)
+            take(step)
             keep()
 
     def kept_free(first: int, last: int) -> None:
         for _ in repeat(None, last - first):
-            one(step)
+            take(step)
             keep()
 
     return kept if applied else kept_free
@@ -144,10 +144,10 @@ def forces(world: World, step: float, *, midpoint: bool, law: bool, reflects: bo
     reflects: whether a point stays on the floor as `follower` says.
     """
     friction = laws(world, step) if law else []
-    told = [*turned(world, step, midpoint=midpoint), *tells(world, step, midpoint=midpoint)]
-    told += [*friction, *_followers(world, step, reflects)]
+    before = [*turned(world, step, midpoint=midpoint), *tells(world, step, midpoint=midpoint)]
+    before += [*friction, *_followers(world, step, reflects)]
     walks = [steers(world.stride, world.wheels, world.place)] if world.stride else []
-    return [*told, *walks, *lays(world, step)]  # which has to know what has been told
+    return [*before, *walks, *lays(world, step)]  # which has to know what has been told
 
 
 def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
@@ -157,7 +157,7 @@ def _followers(world: World, step: float, reflects: bool) -> list[Apply]:
         if is_tip(scene, contact) and not world.plain:
             tip = Tip(scene, contact, world.wheels[contact.name])
             tips.setdefault(contact.body, []).append(tip)
-    found = [
+    following = [
         follower(world.bodies[body], those, step, reflects=reflects) for body, those in tips.items()
     ]
-    return [*found, *pair_followers(world, step, reflects=reflects)]
+    return [*following, *pair_followers(world, step, reflects=reflects)]

@@ -72,12 +72,12 @@ def _bodies(world: World, start: Start) -> None:
 
 def _contacts(world: World) -> None:
     known = planes(world.scene)
-    for plane, told in known.items():
+    for plane, sides in known.items():
         (x, y), (ux, uy), far = plane.at, plane.along, world.reach
         ends = (x - far * ux, y - far * uy), (x + far * ux, y + far * uy)
         segment = Segment(world.space.static_body, *ends, 0.0)
         segment.friction, segment.elasticity = FLOOR_FRICTION, FLOOR_ELASTICITY
-        segment.filter = told
+        segment.filter = sides
         world.planes[plane.name] = segment
         world.space.add(segment)
     for contact in world.scene.touching.values():

@@ -138,7 +138,7 @@ def continued(times: Array, u: Array, zero: float, away: int) -> float:
     """The zero [s] of u (N,) again; away: 1 where u stops there, −1 where it starts."""
     h = float(times[1] - times[0])
     moving = np.flatnonzero(away * (zero - times) > 0.0)[::-away]  # the nearest first
-    best, apart = zero, AGREE * h
+    nearest, apart = zero, AGREE * h
     for skipped in range(SKIPPED):
         rows = moving[skipped : skipped + THROUGH]
         steps = np.diff(u[rows])
@@ -146,10 +146,10 @@ def continued(times: Array, u: Array, zero: float, away: int) -> float:
             break
         if not np.all(steps * u[rows[0]] > 0.0):
             continue  # it does not grow from the rest on: no curve of u
-        other, found = _at_zero(times[rows], u[rows])
-        if abs(found - other) < min(apart, abs(found - zero)) and abs(found - zero) < h:
-            best, apart = found, abs(found - other)
-    return best
+        by_fewer, by_all = _at_zero(times[rows], u[rows])
+        if abs(by_all - by_fewer) < min(apart, abs(by_all - zero)) and abs(by_all - zero) < h:
+            nearest, apart = by_all, abs(by_all - by_fewer)
+    return nearest
 
 
 def _at_zero(times: Array, u: Array) -> tuple[float, float]:

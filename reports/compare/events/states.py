@@ -6,7 +6,7 @@ impact, would spoil what goes through rows of both. After the event means the ca
 for reference and engine alike: some engines spread an impact over many steps.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from ....cases.case import Case
 from ....cases.mistake import Mistake
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import bent, polynomial
+from ....cases.scene.passages import pieces, polynomial, still
 from ....cases.scene.quantity import SIDES, AtEvent, at_event
-from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
-from .times import faint, grazed, limit_of, never, reference_events
+from .times import below_resolution, limit_of, reference_events, tangential, unreached
 
 ROWS = 8  # of the reference: of seventh degree, as the integrator's eighth order
 STEPS = 4  # of an engine: of third degree, as the best of their integrators is of fourth order
@@ -33,24 +32,13 @@ def reference_states(case: Case, record: Trajectory, at: AtEvent, times: Array) 
     """(K,) the quantity at the reference's events; before and after are other smooth pieces."""
     u = observe(case.scene, record, at.quantity)
     late = case.tube if at.side == "after" else 0.0
-    read = np.minimum(times + late, record.times[-1])
-    corners = case.scene.corners()
-    return np.array([_in_piece(record, u, t, at.side, corners) for t in read.tolist()], float)
-
-
-def _in_piece(record: Trajectory, u: Array, t: float, side: str, corners: Sequence[float]) -> float:
-    assert record.phase is not None  # the reference's record has it
-    ends = np.flatnonzero(np.diff(record.phase)) + 1
-    pieces = [p for p in np.split(np.arange(len(u)), ends) if np.ptp(record.times[p]) > 0.0]
-    mine = [p for p in pieces if record.times[p[0]] <= t <= record.times[p[-1]]]
-    rows = mine[-1] if side == "after" else mine[0]
-    times = record.times[rows]
-    bends = bent(times, corners)
-    begin = max(
-        (k for k in bends if times[k] < t or (side == "after" and times[k] == t)), default=0
-    )
-    end = min((k for k in bends if k > begin), default=len(rows) - 1)
-    return _curve(record.times, u, rows[begin : end + 1], t, ROWS)
+    smooth = [*pieces(record, u, case.scene.corners())]
+    values = list[float]()
+    for t in np.minimum(times + late, record.times[-1]).tolist():
+        around = [piece for piece in smooth if piece[1][0] <= t <= piece[1][-1]]
+        _, rows, there = around[-1 if at.side == "after" else 0]
+        values.append(_curve(rows, there, t, ROWS))
+    return np.array(values, float)
 
 
 def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> Array:
@@ -60,15 +48,15 @@ def engine_states(case: Case, record: Trajectory, at: AtEvent, times: Array) -> 
     """
     u, steps = observe(case.scene, record, at.quantity), record.times
     near = BESIDE * float(steps[1] - steps[0])
-    found = []
+    values = []
     for t in times.tolist():
         if at.side == "after":
             read = min(t + case.tube, float(steps[-1]))
             rows = _behind(steps, u, np.flatnonzero(steps > t + near), t)
         else:
             read, rows = t, np.flatnonzero(steps < t - near)
-        found.append(_curve(steps, u, rows, read, STEPS) if len(rows) else np.nan)
-    return np.array(found, float)
+        values.append(_curve(steps[rows], u[rows], read, STEPS) if len(rows) else np.nan)
+    return np.array(values, float)
 
 
 def _behind(steps: Array, u: Array, rows: Rows, t: float) -> Rows:
@@ -86,19 +74,21 @@ def _behind(steps: Array, u: Array, rows: Rows, t: float) -> Rows:
     return rows
 
 
-def _curve(times: Array, u: Array, rows: Rows, t: float, most: int) -> float:
+def _curve(times: Array, u: Array, t: float, most: int) -> float:
     """At t, of the polynomial through so many of the rows, the nearest; of one time the first."""
-    at, kept = np.unique(times[rows], return_index=True)
+    at, kept = np.unique(times, return_index=True)
     nearest = np.argsort(np.abs(at - t), kind="stable")[:most]
-    return polynomial(at[nearest], u[rows][kept][nearest])(t)
+    return polynomial(at[nearest], u[kept][nearest])(t)
 
 
 def mistaken(case: Case, reference: Trajectory) -> list[Mistake]:
     """The mistakes in what the case says of its events, where the reference contradicts it."""
     record = reference.record
     if record is None:
-        return never(case, reference)
-    found = list(grazed(case, record)) or never(case, reference) or list(_jumps(case, record))
+        return []
+    found = (
+        list(tangential(case, record)) or unreached(case, reference) or list(_jumps(case, record))
+    )
     return found or list(_uncounted(case, reference))
 
 
@@ -113,7 +103,7 @@ def _uncounted(case: Case, reference: Trajectory) -> Iterator[Mistake]:
                 f"happens without end before {limit:.4g} s, and the reference leaves out what "
                 "is too short to see"
             )
-        elif (t := faint(case, reference, case.events[event])) is not None:
+        elif (t := below_resolution(case, reference, case.events[event])) is not None:
             why = f"happens so softly at {t:.6g} s that rounding tells how often it does from then"
         else:
             continue

@@ -16,110 +16,81 @@ from ....cases.case import Case, Event
 from ....cases.mistake import Mistake
 from ....cases.scene import Limit, Scene
 from ....cases.scene.observe import observe
-from ....cases.scene.passages import AROUND, bent, lasting, leaps, passages, touches
+from ....cases.scene.passages import AROUND, passing, still
+from ....cases.scene.passages import pieces as smooth_pieces
 from ....cases.scene.quantity import at_event, table
-from ....cases.scene.still import still
 from ....cases.trajectory import Array, Trajectory
-from .rests import LOW, SHARES, STEPS, rests
+from .rests import LOW, SHARES, STEPS, Rest, rests
 
 CLOSE = 1e-6  # of the largest step of a march: rows as close are one
 WHOLE = 1e-9  # steps: a ratio that is whole up to rounding
 CURVE = 4  # steps in the curve that what falls is continued by: as good as an engine of order 4
 SMALL = 1e-4  # of the largest value: a hump as low as this may be rounding or a soft floor
-SURE = 2  # times STEPS and SMALL: no engine near the reference can miss such a hump
-SOFT = 1e-10  # of the largest rate: of a blow that changes none by more, rounding may be a part
+SURE = 2  # times an engine's steps: what they tell of the reference no engine near it can miss
 FLAT = 8  # times what a line needs to zero: what comes there by its eighth power takes as long
 AT_ONCE = 1e3  # times what is zero, in one step: no law of an engine's damps as fast
 BESIDE = 0.1  # of the last distance of a pile: an event and one of the pile that are the same
-TOUCHES = 1e-12  # of the duration: a touch, and the event that it is
 TREMBLE = 1e-6  # steps: two zeros of a curve that touch are not rounding's to lose
-STEADY = 0.5  # of the last fall: so well steps foretell the next where nothing trembles or strikes
 
 
 def reference_events(scene: Scene, record: Trajectory, event: Event) -> Array:
-    """Times (K,) [s] of the event, from the boundaries of the reference's phases.
+    """Times (K,) [s] of the event, from the smooth pieces of the reference.
 
-    What moves may also begin or end to rest where a law jumps or bends, in one phase.
+    One ends with a phase, or where a law jumps or bends: there what moves may begin or end to rest.
     """
-    u, small, pieces = _pieces(scene, record, event)
-    parts = _parted(scene, record, event, pieces)
-    phases = _phases(scene, record, event, u, small, parts)
-    times = [before.end for before, after in pairwise(phases) if _happens(event, before, after)]
-    if event.crosses:
-        corners = scene.corners()
-        for piece in _moving(record, parts, phases):
-            times += passages(record.times[piece], u[piece], small, corners)
+    pieces, small = _pieces(scene, record, event)
+    times = [before.end for before, after in pairwise(pieces) if _happens(event, before, after)]
+    for piece in pieces if event.crosses else ():
+        times += [t for t, curve in passing(piece.times, piece.u, small) if curve]
     return np.array(sorted(times), float)
 
 
-def _parted(
-    scene: Scene, record: Trajectory, event: Event, pieces: Sequence[NDArray[np.int64]]
-) -> list[NDArray[np.int64]]:
-    """The pieces, of a place or a rate also cut at the corners of laws: there it has no jump."""
-    if table(scene)[event.quantity].kind == "force":
-        return [*pieces]
-    found: list[NDArray[np.int64]] = []
-    for piece in pieces:
-        inside = np.isin(record.times[piece], list(scene.corners()))
-        inside[0] = inside[-1] = False
-        ends = [0, *np.flatnonzero(inside).tolist(), len(piece) - 1]
-        found += [piece[begin : end + 1] for begin, end in pairwise(ends)]
-    return found
-
-
-def _moving(
-    record: Trajectory, parts: Sequence[NDArray[np.int64]], phases: Sequence["_Phase"]
-) -> Iterator[NDArray[np.int64]]:
-    """Yields the parts of one phase that follow each other, between those in which u stays zero."""
-    assert record.phase is not None
-    joined: list[NDArray[np.int64]] = []
-    for part, phase in zip(parts, phases, strict=True):
-        if joined and (not phase.moves or record.phase[joined[-1][0]] != record.phase[part[0]]):
-            yield np.unique(np.concatenate(joined))
-            joined = []
-        if phase.moves:
-            joined.append(part)
-    if joined:
-        yield np.unique(np.concatenate(joined))
-
-
 @dataclass(frozen=True)
-class _Phase:
-    """A piece of the record, as an event sees it: whether its quantity leaves zero.
+class _Piece:
+    """A smooth piece of the record, as an event sees it.
 
-    comes: the last value before it comes to zero at the end of the piece, whose sign is the side
-    from which it does; 0 if it does not. fades: whether it counts as zero there, and has only
-    decayed. end: of the piece [s]; within: whether its phase goes on there, at a corner of a law.
+    named: whether the mechanism says that its quantity comes to its value at the end. comes, goes:
+    the last value before it comes to zero there, whose sign is its side, and the first that is not
+    zero; 0 without one. fades: whether it counts as zero at the end, and has only decayed. within:
+    whether its phase goes on at the end, a corner of a law.
     """
 
-    moves: bool
+    times: Array
+    u: Array
+    named: bool
     comes: float
+    goes: float
     fades: bool
-    end: float
     within: bool
 
+    @property
+    def end(self) -> float:
+        """Its last instant [s]."""
+        return float(self.times[-1])
 
-def _phases(
-    scene: Scene,
-    record: Trajectory,
-    event: Event,
-    u: Array,
-    small: float,
-    pieces: Sequence[NDArray[np.int64]],
-) -> list[_Phase]:
-    """Each piece by the size of u, and by what ended it: a hop may be smaller than what counts."""
-    assert record.phase is not None  # the reference's record has it
-    names, found = _names(scene, event), list[_Phase]()
-    numbers = [int(record.phase[piece[0]]) for piece in pieces]
-    for piece, number, then in zip(pieces, numbers, [*numbers[1:], len(record.ended)], strict=True):
-        ended = any(name in names for name in record.ended[number:then])
-        times, values, clear = record.times[piece], u[piece], np.abs(u[piece]) > small
-        last = int(np.flatnonzero(clear)[-1] if np.any(clear) else np.argmax(np.abs(values)))
-        moves, ends = ended or bool(clear[last]), clear[last] and not clear[-1]
-        fades = not ended and ends and _decays(times[last:], values[last:])
-        comes = float(values[last]) if ended or (ends and not fades) else 0.0
-        found.append(_Phase(moves, comes, fades, float(times[-1]), number == then))
-    return found
+    @property
+    def moves(self) -> bool:
+        """Whether its quantity leaves zero: a hop may be smaller than what counts."""
+        return self.named or self.goes != 0.0
+
+
+def _pieces(scene: Scene, record: Trajectory, event: Event) -> tuple[list[_Piece], float]:
+    """Each piece of u, which falls to zero at the event, and the size that counts as zero."""
+    names, pieces = _names(scene, event), list[_Piece]()
+    u = event.falling(observe(scene, record, event.quantity))
+    small = still(scene, record, event.quantity)
+    parts = [*smooth_pieces(record, u, scene.corners())]
+    numbers = [*(number for number, *_ in parts[1:]), len(record.ended)]
+    for (number, times, values), then in zip(parts, numbers, strict=True):
+        named = any(name in names for name in record.ended[number:then])
+        clear = np.flatnonzero(np.abs(values) > small)
+        last = int(clear[-1] if len(clear) else np.argmax(np.abs(values)))
+        ends = len(clear) > 0 and last < len(values) - 1
+        fades = not named and ends and _decays(times[last:], values[last:])
+        comes = float(values[last]) if named or (ends and not fades) else 0.0
+        goes = float(values[clear[0]]) if len(clear) else 0.0
+        pieces.append(_Piece(times, values, named, comes, goes, fades, number == then))
+    return pieces, small
 
 
 def _decays(times: Array, u: Array) -> bool:
@@ -137,41 +108,29 @@ _WORDS = {
 """By a field, the mechanism's words for what happens where it falls to zero."""
 
 
-_BLOWS = ("lands", "tightens", "strikes")
-"""Those of them at which rates jump."""
-
-
 def _names(scene: Scene, event: Event) -> set[str]:
     """The mechanism's names for what ends a phase where the event's quantity comes to its value.
 
     They say that it does, and not from which side: a slip, or a spring's force, has two.
     """
     part, _, field = event.quantity.rpartition(".")
-    found = set[str]()
+    names = set[str]()
     if event.value == 0.0:
-        found = {f"{part} {word}" for word in _WORDS.get(field, ())}
+        names = {f"{part} {word}" for word in _WORDS.get(field, ())}
     limit = scene.forces.get(part)
     if isinstance(limit, Limit):
         if field in limit.sides and event.value == 0.0:
-            found.add(f"{part}.{field} leaves")
+            names.add(f"{part}.{field} leaves")
         for side, (_, at) in limit.sides.items():
             if field == limit.measured and at == event.value:
-                found |= {f"{part} tightens", f"{part}.{side} strikes"}
-    return found
+                names |= {f"{part} tightens", f"{part}.{side} strikes"}
+    return names
 
 
-def _pieces(
-    scene: Scene, record: Trajectory, event: Event
-) -> tuple[Array, float, list[NDArray[np.int64]]]:
-    """The u (N,) that falls to zero at the event, the size that counts as zero, rows by phase."""
-    u = event.falling(observe(scene, record, event.quantity))
-    return u, still(scene, record, event.quantity), lasting(record)
-
-
-def _happens(event: Event, before: _Phase, after: _Phase) -> bool:
+def _happens(event: Event, before: _Piece, after: _Piece) -> bool:
     """Whether the event is where one piece ends and the next begins."""
     if event.crosses:
-        return before.comes > 0.0 and not (before.within and after.moves)
+        return before.comes > 0.0 and not (before.within and after.goes > 0.0)
     if event.rule == "stays zero":
         return before.moves and not before.fades and not after.moves
     return not before.moves and after.moves
@@ -190,25 +149,19 @@ class Known:
     jumps: tuple[float, ...] = ()
 
 
-def jumped(scene: Scene, record: Trajectory, event: Event, happened: Array) -> Array:
+def jumped(scene: Scene, record: Trajectory, event: Event) -> Array:
     """When [s] the event's quantity jumps down across its value, which is no such event.
 
     As a velocity does in an impact, or a force that is switched off: an engine takes a step or
     more for it, in which it passes the value.
     """
-    if not event.crosses:
-        return np.zeros(0)
-    u, small, pieces = _pieces(scene, record, event)
-    found = [
-        float(record.times[before[-1]])
-        for before, after in pairwise(pieces)
-        if u[before[-1]] > small >= u[after[0]]
+    pieces, small = _pieces(scene, record, event)
+    times = [
+        before.end
+        for before, after in pairwise(pieces if event.crosses else ())
+        if before.u[-1] > small >= after.u[0] and not _happens(event, before, after)
     ]
-    for piece in pieces:
-        for t, came, goes in leaps(record.times[piece], u[piece], scene.corners()):
-            found += [t] if came > small >= goes else []
-    near = TOUCHES * float(record.times[-1] - record.times[0])
-    return np.array([t for t in sorted(found) if not np.any(np.abs(happened - t) <= near)], float)
+    return np.array(times, float)
 
 
 def engine_events(
@@ -223,137 +176,117 @@ def engine_events(
     known = known or Known()
     times, u = record.times, event.falling(observe(scene, record, event.quantity))
     small = still(scene, record, event.quantity)
-    found = _read(times, u, event, known, small)
-    larger = [each for each in reversed(SHARES) if each > known.share > 0.0]
-    if known.happened is None or len(found) == len(known.happened):
-        return found
-    others = (_read(times, u, event, replace(known, share=each), small) for each in larger)
-    return next((other for other in others if len(other) == len(known.happened)), found)
+    shares = known.share, *(share for share in reversed(SHARES) if share > known.share > 0.0)
+    readings = (_read(times, u, event, replace(known, share=share), small) for share in shares)
+    first = next(readings)
+    if known.happened is None or len(first) == len(known.happened):
+        return first
+    return next((other for other in readings if len(other) == len(known.happened)), first)
 
 
 def _read(times: Array, u: Array, event: Event, known: Known, small: float) -> Array:
     """Times (K,) [s] of the event, from u (N,) at steps; small: as `falls` says."""
-    if not event.crosses:
-        found = rests(times, u, known.share or LOW)
-        ends = [stop if event.rule == "stays zero" else start for stop, start in found]
-        return np.array([t for t in ends if t is not None], float)
-    fallen = falls(times, u, small)
-    return _without_jumps(_to_rest(times, u, fallen, known.share) if known.share else fallen, known)
+    ends = rests(times, u, known.share or LOW) if known.share or not event.crosses else []
+    if event.crosses:
+        return _without_jumps(_falls_and_stops(times, u, ends, small), known)
+    sides = (start if event.rule == "leaves zero" else stop for stop, start in ends)
+    return np.array([t for t in sides if t is not None], float)
 
 
-def _without_jumps(found: Array, known: Known) -> Array:
-    """The times without those that belong to jumps of the reference, and to none of its events."""
-    if not known.jumps or not len(found):
-        return found
-    all_times = np.array([*(known.happened or ()), *known.jumps])
-    order = np.argsort(all_times)
-    jumps = (np.arange(len(order)) >= len(order) - len(known.jumps))[order]
-    if len(found) <= len(order):
-        return found[~jumps[nearest(found, all_times[order])]]
-    return np.delete(found, nearest(all_times[order], found)[jumps])
+def _without_jumps(times: Array, known: Known) -> Array:
+    """The times without the nearest to each jump of the reference, if no event of it is nearer."""
+    for jump in known.jumps if len(times) else ():
+        nearest_to_it = int(np.argmin(np.abs(times - jump)))
+        others = np.abs(np.array(known.happened or (np.inf,)) - times[nearest_to_it])
+        if abs(times[nearest_to_it] - jump) < np.min(others):
+            times = np.delete(times, nearest_to_it)
+    return times
 
 
-def _to_rest(times: Array, u: Array, fallen: Array, share: float) -> Array:
-    """When u (N,) falls to zero, also where it stays there: what it then is only trembles.
+def _falls_and_stops(times: Array, u: Array, ends: Sequence[Rest], small: float) -> Array:
+    """When u (N,) falls to zero, also where it rests there: what it then is only trembles.
 
-    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign. What
-    swings by more than 1e-4 of the largest value does not only tremble.
+    A rate that friction stops is 1e-5 of itself, then 1e-10, and somewhen of the other sign.
     """
-    found, beside = fallen.tolist(), STEPS * float(times[1] - times[0])
-    small = SMALL * float(np.max(np.abs(u)))
-    for stop, start in rests(times, u, share):
-        if stop is None or not np.sum(u[times < stop][-STEPS:]) > 0.0:
-            continue
-        until, last = float(times[-1]) if start is None else start, stop + beside
-        kept = [t for t in found if not stop - beside <= t <= until]
-        for t in (t for t in found if last < t <= until):
-            hump = u[(times > last) & (times < t)]
-            kept += [t] if np.max(hump, initial=0.0) > small else []
-            last = t
-        found = [*kept, stop]
-    return np.array(sorted(found), float)
+    at_rest = np.zeros(len(u), bool)
+    for stop, start in ends:
+        begin, end = times[0] if stop is None else stop, times[-1] if start is None else start
+        at_rest |= (begin <= times) & (times <= end)
+    fallen = falls(times, np.where(at_rest, 0.0, u), small)
+    for stop in (stop for stop, _ in ends if stop is not None):
+        fallen[np.abs(fallen - stop) <= STEPS * (times[1] - times[0])] = stop
+    return np.unique(fallen)
 
 
-def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> float:
-    """The share of the largest value with which `rests` reads the reference's events right.
+def reading(scene: Scene, record: Trajectory, event: Event, happened: Array, step: float) -> Known:
+    """How an engine's steps so large [s] are read, given when the event happens in the reference.
 
-    With it steps so large [s] tell each of them within a step; 2 % where no share does. It is 0
-    where nothing rests, or none of them reads what also falls to zero: what only decays to zero
-    does not fall to it.
+    The share is the largest with which they tell each of the reference's own events within a step;
+    2 % where none does. It is 0 where nothing rests, or none of them reads what also falls to zero:
+    what only decays to zero does not fall to it.
     """
+    jumps = jumped(scene, record, event).tolist()
+    known = Known(0.0, (*happened.tolist(),), (*jumps,))
     if event.crosses and not _comes_to_rest(scene, record, event):
-        return 0.0
+        return known
     times, u = _at_steps(scene, record, event, step)
     small = still(scene, record, event.quantity)
-    known = Known(0.0, (*happened,), (*jumped(scene, record, event, happened),))
-
-    def right(share: float) -> bool:
-        found = _read(times, u, event, replace(known, share=share), small)
-        return len(found) == len(happened) and bool(np.all(np.abs(found - happened) <= step))
-
-    return next((share for share in SHARES if right(share)), 0.0 if event.crosses else LOW)
+    for share in SHARES:
+        read = _read(times, u, event, replace(known, share=share), small)
+        if len(read) == len(happened) and np.all(np.abs(read - happened) <= step):
+            return replace(known, share=share)
+    return known if event.crosses else replace(known, share=LOW)
 
 
 def _comes_to_rest(scene: Scene, record: Trajectory, event: Event) -> bool:
     """Whether a rate falls to zero in the reference and stays there."""
-    if event.value or table(scene)[event.quantity].unit not in ("m/s", "rad/s"):
+    if table(scene)[event.quantity].unit not in ("m/s", "rad/s"):
         return False
-    u, small, pieces = _pieces(scene, record, event)
-    phases = _phases(scene, record, event, u, small, _parted(scene, record, event, pieces))
-    return any(before.comes > 0.0 and not after.moves for before, after in pairwise(phases))
+    pieces, _ = _pieces(scene, record, event)
+    return any(before.comes > 0.0 and not after.moves for before, after in pairwise(pieces))
 
 
 def _at_steps(scene: Scene, record: Trajectory, event: Event, step: float) -> tuple[Array, Array]:
     """Times (N,) of steps so large [s], and the reference's u (N,) there, by splines."""
     from scipy.interpolate import make_interp_spline
 
-    u, _, pieces = _pieces(scene, record, event)
     begin, end = float(record.times[0]), float(record.times[-1])
     count = int((end - begin) / step + WHOLE)
     times = np.minimum(begin + step * np.arange(count + 1, dtype=np.float64), end)
-    found = np.zeros_like(times)
-    for rows in pieces:
-        bends = [0, *bent(record.times[rows], scene.corners()), len(rows) - 1]
-        for part in (rows[a : b + 1] for a, b in pairwise(sorted({*bends}))):
-            at, kept = np.unique(record.times[part], return_index=True)
-            inside = slice(*np.searchsorted(times, [at[0], np.nextafter(at[-1], np.inf)]).tolist())
-            # An event on a sample leaves rows that are an ulp apart: no curve goes through both.
-            apart = np.append(True, np.diff(at) > CLOSE * np.max(np.diff(at), initial=0.0))
-            at, values = at[apart], u[part][kept][apart]
-            if len(at) > 1:
-                odd = min(AROUND, len(at)) // 2 * 2 - 1
-                found[inside] = make_interp_spline(at, values, k=odd)(times[inside])
-            else:
-                found[inside] = values
-    return times, found
+    u = np.zeros_like(times)
+    for piece in _pieces(scene, record, event)[0]:
+        at = piece.times
+        inside = slice(*np.searchsorted(times, [at[0], np.nextafter(at[-1], np.inf)]).tolist())
+        # An event on a sample leaves rows that are an ulp apart: no curve goes through both.
+        apart = np.append(True, np.diff(at) > CLOSE * np.max(np.diff(at)))
+        at, values = at[apart], piece.u[apart]
+        odd = min(AROUND, len(at)) // 2 * 2 - 1
+        u[inside] = make_interp_spline(at, values, k=odd)(times[inside])
+    return times, u
 
 
 def falls(times: Array, u: Array, small: float = 0.0) -> Array:
-    """When u (N,) falls to zero, as `_through` says.
+    """When u (N,) falls to zero: where it changes its sign, or comes to zero and turns back.
 
-    Up to `small` it is zero, as the reference's, if it comes there at once: a rope that an exact
-    impact has pulled taut stays so up to rounding, of either sign. What only decays does not.
     An impact may turn u back before any step sees it at zero: then it is the zero of what went
-    before, if that has one within the next step and u then rises, as `_turned` says.
-    What rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
+    before, if that has one within the next step, and u then rises or is zero, up to `small`. What
+    rests on zero trembles around it, so u has to come off between two falls, as `_off` says.
     """
-    before, now, after, then = u[:-3], u[1:-2], u[2:-1], u[3:]
-    turned = (2 * now <= before) & (now > 0) & (after > 0) & (then > after)
-    last = (2 * u[-2:-1] <= u[-3:-2]) & (u[-2:-1] > 0) & (u[-1:] > 0)  # behind it no step tells
-    turned = np.append(turned, last)
-    through = (u[:-1] > 0) & (u[1:] <= 0)
-    through |= (u[:-1] > AT_ONCE * small) & (u[1:] <= small)
-    seen = {int(i): _through(times, u, int(i), int(i)) for i in np.flatnonzero(through)}
-    for i in (np.flatnonzero(turned) + 1).tolist():
-        if (zero := _turned(times, u, i)) is not None:
-            seen[i] = zero
+    now, after = u[:-1], u[1:]
+    before, then = np.append(-np.inf, u[:-2]), np.append(u[2:], np.inf)
+    through = (now > 0) & (after <= 0)
+    turned = (after <= small) | ((2 * now <= before) & (then > after))
+    turned &= (now > small) & (after > 0)
     largest, last = float(np.max(np.abs(u))), 0
-    found: list[float] = []
-    for i, t in sorted(seen.items()):
-        if _off(u[last : i + 1], largest):
-            found.append(t)
-        last = i + 1
-    return np.array(found, float)
+    zeros: list[float] = []
+    for i in np.flatnonzero(through | turned).tolist():
+        zero = _of_curve(times, u, i)
+        if zero is None and through[i]:
+            zero = float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
+        if zero is not None:
+            zeros += [zero] if _off(u[last : i + 1], largest) else []
+            last = i + 1
+    return np.array(zeros, float)
 
 
 def _off(u: Array, largest: float) -> bool:
@@ -361,31 +294,23 @@ def _off(u: Array, largest: float) -> bool:
     return bool(np.any(u > LOW * largest)) or int(np.sum(u > SMALL * largest)) >= STEPS
 
 
-def surely(
-    scene: Scene, record: Trajectory, event: Event, happened: Array, step: float, share: float
+def certain_events(
+    scene: Scene, record: Trajectory, event: Event, known: Known, step: float
 ) -> NDArray[np.int64]:
-    """Which of the reference's events, at these times (K,), steps of this size tell for sure.
+    """Which of the reference's events steps of this size [s] tell for sure.
 
-    A ball that comes to rest bounces ever lower: what lasts a few steps, or rises by 1e-4 of the
-    first height, may be seen in an engine's motion or not. Of rests it is those which are read from
-    such steps of the reference itself; share: as `reading` says.
+    Those which are read from the reference itself at such steps, of what passes at twice as large:
+    a ball that comes to rest bounces ever lower, and what lasts a few steps may be seen in an
+    engine's motion or not.
     """
+    happened = np.array(known.happened or ())
     if not len(happened):
         return np.arange(0)
-    if not event.crosses:
-        small = still(scene, record, event.quantity)
-        found = _read(*_at_steps(scene, record, event, step), event, Known(share), small)
-        partners = nearest(found[: len(happened)], happened)
-        close = np.abs(found[: len(happened)] - happened[partners]) <= STEPS * step
-        return partners[close]
-    u = event.falling(observe(scene, record, event.quantity))
-    largest = float(np.max(np.abs(u)))
-    humps = [
-        (end - start, np.max(u[(record.times >= start) & (record.times <= end)]))
-        for start, end in pairwise([float(record.times[0]), *happened.tolist()])
-    ]
-    long, high = SURE * STEPS * step, SURE * SMALL * largest
-    return np.flatnonzero([bool(lasts >= long and height >= high) for lasts, height in humps])
+    times, u = _at_steps(scene, record, event, step * (SURE if event.crosses else 1))
+    small = still(scene, record, event.quantity)
+    times_read = _read(times, u, event, known, small)[: len(happened)]
+    partners = nearest(times_read, happened)
+    return partners[np.abs(times_read - happened[partners]) <= STEPS * step]
 
 
 def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
@@ -393,89 +318,46 @@ def nearest(times: Array, wanted: Array) -> NDArray[np.int64]:
 
     All of them together are as near as can be.
     """
-    total, costs = np.zeros(len(wanted) + 1), list[Array]()
-    for t in times.tolist():
-        costs.append(total[:-1] + np.abs(wanted - t))
-        total = np.append(np.inf, np.minimum.accumulate(costs[-1]))
-    found, end = list[int](), len(wanted)
-    for cost in reversed(costs):
-        end = int(np.argmin(cost[:end]))
-        found.append(end)
-    return np.array(found[::-1], dtype=np.int64)
+    from scipy.optimize import linear_sum_assignment
 
-
-def _through(times: Array, u: Array, i: int, line: int) -> float:
-    """The zero after step i: of the curve through the steps up to it, if it is within the next.
-
-    What happens then, as an impact or the end of a force, spoils a curve to the steps behind, and
-    already the line to the next. Where steps tremble too much for any curve a line tells, through
-    steps `line` and the next.
-    """
-    zero = _of_curve(times, u, i) if i >= CURVE - 1 else None
-    return _zero(times, u, line) if zero is None else zero
-
-
-def _turned(times: Array, u: Array, i: int) -> float | None:
-    """The zero after step i, where u is above zero again at the next; None where it only came near.
-
-    A curve that goes on as its steps before foretell, and has no zero, turns by itself.
-    """
-    if i < CURVE - 1:
-        return _zero(times, u, i - 1)
-    zero = _of_curve(times, u, i)
-    before = slice(i - CURVE + 1, i)
-    foretold = np.polyval(np.polyfit(times[before] - times[i], u[before], CURVE - 2), 0.0)
-    steady = abs(foretold - u[i]) <= STEADY * (u[i - 1] - u[i])
-    return _zero(times, u, i - 1) if zero is None and not steady else zero
+    _, partners = linear_sum_assignment(np.abs(times[:, None] - wanted))
+    return np.sort(partners)
 
 
 def _of_curve(times: Array, u: Array, i: int) -> float | None:
-    """The first zero after step i and within the next, of the curve through the steps up to it."""
+    """The first zero after step i and within the next, of the curve through the steps up to it.
+
+    What happens then, as an impact or the end of a force, spoils a curve to the steps behind, and
+    already the line to the next.
+    """
+    if i < CURVE - 1:
+        return None
     h = float(times[i + 1] - times[i])
     rows = slice(i - CURVE + 1, i + 1)
     roots = np.roots(np.polyfit((times[rows] - times[i]) / h, u[rows], CURVE - 1))
     zeros = np.real(roots[np.abs(np.imag(roots)) < TREMBLE])
-    inside = zeros[(zeros > 0.0) & (zeros <= 1.0)]
+    inside = zeros[(zeros > 0.0) & (zeros <= 1.0 + TREMBLE)]
     return float(times[i]) + h * float(np.min(inside)) if len(inside) else None
 
 
-def _zero(times: Array, u: Array, i: int) -> float:
-    """The zero [s] of the line through steps i and i + 1."""
-    return float(times[i] + (times[i + 1] - times[i]) * u[i] / (u[i] - u[i + 1]))
-
-
-def never(case: Case, reference: Trajectory) -> list[Mistake]:
-    """A mistake for every event that the reference does not know, or has at its last instant.
+def unreached(case: Case, reference: Trajectory) -> list[Mistake]:
+    """A mistake for every event that the reference does not know.
 
     A contact that starts above the floor may be named and not land in time: that no engine lets it
     land earlier is a claim too, and only a bound on its time, or on what is then, compares nothing.
     """
-    record = reference.record
-    found: list[Mistake] = []
+    mistakes: list[Mistake] = []
     for name, event in case.events.items():
-        assert record is not None  # of a case with events
-        places: list[tuple[str, ...]] = [("events", name)]
-        if _at_the_end(case.scene, record, event):
-            what = (
-                f"comes at the last instant, {case.duration:g} s: whether it still happens is "
-                "rounding; take another duration"
-            )
-        elif len(reference_events(case.scene, record, event)):
+        assert reference.record is not None  # of a case with events
+        if len(reference_events(case.scene, reference.record, event)):
             continue
-        else:
-            what = f"never happens in {case.duration:g} s: nothing is compared"
-        if _falls_later(case.scene, reference, event):
+        places: list[tuple[str, ...]] = [("events", name)]
+        if _lands_later(case.scene, reference, event):
             bounds = (b for b in case.allow if b == f"{name}.time" or at_event(b, (name,)))
             places = [("allow", bound) for bound in bounds]
-        found += [case.mistake(place, what) for place in places]
-    return found
-
-
-def _at_the_end(scene: Scene, record: Trajectory, event: Event) -> bool:
-    """Whether its quantity comes to zero in the last row, as the event has it, and at once."""
-    u, small, pieces = _pieces(scene, record, event)
-    came = _phases(scene, record, event, u, small, pieces)[-1].comes
-    return {"stays zero": abs(came), "leaves zero": 0.0}.get(event.rule, came) > AT_ONCE * small
+        what = f"never happens in {case.duration:g} s: nothing is compared"
+        mistakes += [case.mistake(place, what) for place in places]
+    return mistakes
 
 
 def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
@@ -488,8 +370,9 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
     record = reference.record
     if record is None or not event.crosses:
         return None
-    u, small, _ = _pieces(case.scene, record, event)
-    times, told = reference_events(case.scene, record, event), _names(case.scene, event)
+    u = event.falling(observe(case.scene, record, event.quantity))
+    small = still(case.scene, record, event.quantity)
+    times, named = reference_events(case.scene, record, event), _names(case.scene, event)
     for pile in reference.endless:
         beside = BESIDE * float(pile[-1] - pile[-2])
         mine = times[(times >= pile[0] - beside) & (times <= pile[-1] + beside)]
@@ -497,48 +380,49 @@ def limit_of(case: Case, reference: Trajectory, event: Event) -> float | None:
             continue
         then = pile[pile >= mine[-1] - beside][0]
         after = u[(record.times > then + beside) & (record.times < pile[-1])]
-        unseen = not told and len(mine) > 1 and bool(np.all(np.abs(after) <= small))
+        unseen = not named and len(mine) > 1 and bool(np.all(np.abs(after) <= small))
         if unseen or mine[-1] > pile[-2] + beside:
             return float(pile[-1])
     return None
 
 
-def faint(case: Case, reference: Trajectory, event: Event) -> float | None:
-    """The first time [s] at which a blow that is such an event changes no rate by more than what
-    rounding does; None without one."""
-    record, named = reference.record, _names(case.scene, event)
-    blows = {name for name in named if name.endswith(_BLOWS)}
-    if record is None or record.phase is None or not blows:
+def below_resolution(case: Case, reference: Trajectory, event: Event) -> float | None:
+    """The first time [s] at which it ends a hop that is too small to be seen; None without one."""
+    if reference.record is None or not event.crosses:
         return None
-    frame = case.scene.frame
-    columns = [*frame.alike("m/s"), *frame.alike("rad/s")]
-    rates = np.hstack([states[:, columns] for states in record.states.values()])
-    large = float(np.max(np.abs(rates)))
-    for before, after in pairwise(lasting(record)):
-        numbers = slice(int(record.phase[before[0]]), int(record.phase[after[0]]))
-        jump = float(np.max(np.abs(rates[after[0]] - rates[before[-1]])))
-        if blows.intersection(record.ended[numbers]) and jump <= SOFT * large:
-            return float(record.times[before[-1]])
-    return None
+    pieces, _ = _pieces(case.scene, reference.record, event)
+    return next((piece.end for piece in pieces if piece.named and not piece.goes), None)
 
 
-def grazed(case: Case, record: Trajectory) -> Iterator[Mistake]:
+def tangential(case: Case, record: Trajectory) -> Iterator[Mistake]:
     """A mistake for every event of which rounding says whether it happens."""
     for name, event in case.events.items():
-        u, small, pieces = _pieces(case.scene, record, event)
-        for piece in pieces if event.crosses else ():
-            happens = reference_events(case.scene, record, event)
-            for t in touches(record.times[piece], u[piece], small, case.scene.corners()):
-                if np.any(np.abs(happens - t) <= TOUCHES * case.duration):
-                    continue  # it stays there until a law lets it go
-                what = (
-                    f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
-                    f"within {small:.1e}: whether it gets there is rounding; give another value"
-                )
-                yield case.mistake(("events", name), what)
+        pieces, small = _pieces(case.scene, record, event)
+        came = pieces[-1].comes
+        if {"stays zero": abs(came), "leaves zero": 0.0}.get(event.rule, came) > AT_ONCE * small:
+            what = (
+                f"comes at the last instant, {case.duration:g} s: whether it still happens is "
+                "rounding; take another duration"
+            )
+            yield case.mistake(("events", name), what)
+        for t in _touches(pieces, small) if event.crosses else ():
+            what = (
+                f"{event.quantity} comes to {event.value:g} at t = {t:.6g} s and turns back, "
+                f"within {small:.1e}: whether it gets there is rounding; give another value"
+            )
+            yield case.mistake(("events", name), what)
 
 
-def _falls_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
+def _touches(pieces: Sequence[_Piece], small: float) -> Iterator[float]:
+    """Times [s] at which u comes to zero in a phase and turns back."""
+    for piece in pieces:
+        yield from (t for t, curve in passing(piece.times, piece.u, small) if curve is None)
+    for before, after in pairwise(pieces):
+        if before.within and before.comes * after.goes > 0.0:
+            yield before.end
+
+
+def _lands_later(scene: Scene, reference: Trajectory, event: Event) -> bool:
     part, _, field = event.quantity.rpartition(".")
     touches = part in (*scene.contacts, *scene.pairs)
     above = touches and field == "gap" and event.rule == "falls to zero"

@@ -3,18 +3,17 @@
 Every rung of every engine asks the same, so that it is computed once for all of them.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ....cases.case import Case, Event
-from ....cases.scene import Scene
+from ....cases.case import Case
 from ....cases.trajectory import Array, Trajectory
 from ....reference.solve import motion_of
-from .times import Known, jumped, nearest, reading, reference_events, surely
+from .times import Known, certain_events, nearest, reading, reference_events
 
 
 @dataclass(frozen=True)
@@ -24,24 +23,14 @@ class Timing:
     case: Case
     record: Trajectory | None
 
-    @property
-    def scene(self) -> Scene:
-        """The case's scene."""
-        return self.case.scene
-
-    @property
-    def named(self) -> Mapping[str, Event]:
-        """The case's events by name."""
-        return self.case.events
-
     @cached_property
     def events(self) -> dict[str, Array]:
         """The reference's times (K,) [s] of every event."""
         if self.record is None:
-            return {name: np.zeros(0) for name in self.named}
+            return {name: np.zeros(0) for name in self.case.events}
         return {
-            name: reference_events(self.scene, self.record, event)
-            for name, event in self.named.items()
+            name: reference_events(self.case.scene, self.record, event)
+            for name, event in self.case.events.items()
         }
 
     def surely(self, event: str, step: float) -> NDArray[np.int64]:
@@ -49,9 +38,9 @@ class Timing:
         if self.record is None:
             return np.arange(0)
         if (event, step) not in self._sure:
-            happened, share = self.events[event], self.known(step)[event].share
-            self._sure[event, step] = surely(
-                self.scene, self.record, self.named[event], happened, step, share
+            known = self.known(step)[event]
+            self._sure[event, step] = certain_events(
+                self.case.scene, self.record, self.case.events[event], known, step
             )
         return self._sure[event, step]
 
@@ -76,25 +65,14 @@ class Timing:
 
     def known(self, step: float) -> dict[str, Known]:
         """How each event is read from such steps [s], and when it happens or might."""
-        if step not in self._known:
-            self._known[step] = {name: self._read(name, step) for name in self.named}
-        return self._known[step]
-
-    def _read(self, name: str, step: float) -> Known:
-        happened, share = self.events[name], 0.0
-        if self.record is not None:
-            share = reading(self.scene, self.record, self.named[name], happened, step)
-        return Known(share, (*happened.tolist(),), self._jumps[name])
-
-    @cached_property
-    def _jumps(self) -> dict[str, tuple[float, ...]]:
-        """When [s] the reference jumps across an event's value, which each rung has to know."""
         if self.record is None:
-            return dict.fromkeys(self.named, ())
-        return {
-            name: (*jumped(self.scene, self.record, event, self.events[name]).tolist(),)
-            for name, event in self.named.items()
-        }
+            return {}
+        if step not in self._known:
+            self._known[step] = {
+                name: reading(self.case.scene, self.record, event, self.events[name], step)
+                for name, event in self.case.events.items()
+            }
+        return self._known[step]
 
     @cached_property
     def motion(self) -> Callable[[Array], Trajectory]:

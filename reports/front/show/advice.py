@@ -5,14 +5,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ....engines.engine import Diverged, Tunable
+from ....engines.engine import Diverged, Plain, Tunable
 from ....engines.knobs import as_text
 from ...compare.judge.figures import plain
 from ...compare.trial.start import first
 from ...compare.trial.trial import Trial
 from ...runs.tasks import Pair
 from ...search.advice.advice_rows import BOTH, Advised, rows, settings, words
-from ...search.advice.real_shapes import ours_alone
 from ...search.advice.recipe import Recipe, front
 from ...search.causes.candidate import Candidate
 from ...search.causes.errors import trial_of
@@ -24,7 +23,7 @@ HEADS = {BOTH: "fewest changes, and cheapest"}
 def shipped_lines(one: Advised) -> Iterator[str]:
     """Yields what a person sees of one case in one engine as shipped, before any search."""
     yield ""
-    if one.kitchen is None:
+    if one.search is None:
         yield f"{_name(one)}: refused: {rows(one)[0].remains}"
         return
     yield f"{_name(one)}, as shipped, {milliseconds(one.shipped.step)}"
@@ -35,7 +34,7 @@ def shipped_lines(one: Advised) -> Iterator[str]:
 def stopped_lines(one: Advised) -> Iterator[str]:
     """Yields the nearest of all that was tried before the search was interrupted."""
     for candidate in one.pasted:
-        runs = 0 if one.kitchen is None else len(one.kitchen.bar.known)
+        runs = 0 if one.search is None else len(one.search.runs.known)
         yield ""
         yield f"{_name(one)}: interrupted after {runs} run{'s' * (runs > 1)}; the nearest so far"
         yield from _found(one, candidate)
@@ -48,7 +47,7 @@ def _name(one: Advised) -> str:
 
 def advice_lines(one: Advised) -> Iterator[str]:
     """Yields the advice on one case in one engine, line by line."""
-    if one.kitchen is None:
+    if one.search is None:
         return
     tolerance, margin = one.asked.tolerance, one.asked.margin
     within = "its tolerances" if tolerance is None else f"{tolerance:g} of its size"
@@ -56,14 +55,14 @@ def advice_lines(one: Advised) -> Iterator[str]:
     yield f"{_name(one)}: all within {within} / {margin:g}"
     if one.recipes is None:
         yield f"  no recipe: {rows(one)[0].remains}"
-        if ours := " and ".join(one.kitchen.menu.ours):
+        if ours := " and ".join(one.search.candidates.ours):
             yield f"    not tried, for it takes our adapter, as `run --causes` does: {ours}"
         for candidate in one.pasted:
             yield "  the nearest"
             yield from _found(one, candidate)
             yield from _paste(one, candidate)
     for want, recipe in one.wanted:
-        step = milliseconds(recipe.step)
+        step = milliseconds(recipe.candidate.step)
         yield f"  {HEADS.get(want, want)}: {words(recipe.choice)}, {step}"
         yield from _recipe(one, recipe)
     if one.asked.front:
@@ -73,22 +72,23 @@ def advice_lines(one: Advised) -> Iterator[str]:
 
 def _measured_on(one: Advised) -> Iterator[str]:
     """Yields whose shapes the numbers belong to, where something touches."""
+    engine = one.pair.engine
     if one.shapes:
         yield f"  measured as a user has it: {one.shapes[0].words}"
         trial = trial_of(one.pair, one.shipped)
         if trial and trial.withheld:
             yield f"    {', '.join(trial.withheld)} not read there"
-    elif ours := ours_alone(one.pair.engine, one.pair.case):
+    elif isinstance(engine, Plain) and (ours := engine.own_contacts(one.pair.case.scene)):
         yield f"  measured in our model alone, where {ours}"
 
 
 def _recipe(one: Advised, recipe: Recipe) -> Iterator[str]:
-    assert one.kitchen is not None
+    assert one.search is not None
     candidate = recipe.candidate
     yield from _found(one, candidate)
-    if candidate in (cut := one.kitchen.bar.elsewhere) and not one.shapes:
+    if candidate in (cut := one.search.elsewhere) and not one.shapes:
         yield f"    with the loop cut at other joints at most {factor(cut[candidate])}"
-    cost = one.kitchen.cost(candidate) / one.kitchen.cost(one.shipped)
+    cost = one.search.cost(candidate) / one.search.cost(one.shipped)
     measured = ratio(one.pair, candidate, one.shipped)
     beside = "" if measured is None else f", measured here ×{measured:.2g}"
     yield f"    costs ×{cost:.2g} of shipped{beside}"
@@ -113,7 +113,7 @@ def _paste(one: Advised, candidate: Candidate) -> Iterator[str]:
 
 def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
     """Yields the numbers that a person asks for, in words, and the worst judged quantity."""
-    assert one.kitchen is not None
+    assert one.search is not None
     trial = trial_of(one.pair, candidate)
     try:
         numbers = plain(trial) if trial else []
@@ -122,7 +122,7 @@ def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
         return
     if numbers:
         yield f"    {'; '.join(map(str, numbers))}"
-    worst, quantity = one.kitchen.bar.worst(candidate)
+    worst, quantity = one.search.worst(candidate)
     yield (
         f"    worst: {quantity} {factor(worst)} of what is allowed"
         if quantity
@@ -131,11 +131,11 @@ def _found(one: Advised, candidate: Candidate) -> Iterator[str]:
 
 
 def _front(one: Advised) -> Sequence[str]:
-    assert one.kitchen is not None
+    assert one.search is not None
     return [
-        f"{one.kitchen.cost(candidate):9.4g} /s  ×{worst:<8.2g} {quantity:20} "
+        f"{one.search.cost(candidate):9.4g} /s  ×{worst:<8.2g} {quantity:20} "
         f"h = {candidate.step:.3g} s  {as_text(candidate.options)}"
-        for candidate, worst, quantity in front(one.kitchen)
+        for candidate, worst, quantity in front(one.search)
     ]
 
 

@@ -1,20 +1,21 @@
 """Makes the rows of advice.csv from what was asked for and what was found."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import getitem
 from typing import Any
 
 from ....cases.theme import themes
 from ....engines.engine import Plan, Refusal, Shape
-from ....engines.knobs import as_text
+from ....engines.knobs import as_text, short_value
 from ...runs.tasks import Pair
 from ...tables.row import Advice
 from ...tables.short_numbers import milliseconds
 from ..causes.candidate import Candidate
-from .candidates import NOTHING, Choice
-from .criterion import Bar
-from .real_shapes import Beside
-from .recipe import Kitchen, Recipe, Recipes, best, named_options
+from ..causes.search import Runs
+from .candidates import NOTHING, Choice, parts
+from .recipe import Recipe, Recipes, Search, best
 
 
 @dataclass(frozen=True)
@@ -26,26 +27,42 @@ class Requirement:
     front: bool = False  # whether cost against error is drawn
 
 
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """A model that a user may have instead: a loop cut elsewhere, or other shapes, with words.
+
+    held: whether a recipe has to hold there.
+    """
+
+    runs: Runs
+    words: str = ""
+    held: bool = True
+
+
 @dataclass(frozen=True)
 class Advised:
-    """way: the native one as shipped, or why there is none. kitchen: with all that was run."""
+    """way: the native one as shipped, or why there is none. search: with all that was run."""
 
     pair: Pair
     asked: Requirement
     way: Plan | Refusal
-    kitchen: Kitchen | None
-    recipes: Recipes | None
+    search: Search | None
+    recipes: Recipes | None = None
     shapes: Sequence[Shape] = ()  # that a user has; what is advised is measured on the first
-    beside: Beside = field(default_factory=dict[Candidate, Any])  # on the others
+    variants: Sequence[Variant] = ()
+    beside: Mapping[Candidate, Sequence[tuple[str, float, str]]] = field(
+        default_factory=dict[Candidate, Any]
+    )
+    """By candidate, for each other shape its words, the worst error, and whose."""
 
     @property
     def shipped(self) -> Candidate:
-        assert self.kitchen is not None
-        return NOTHING.at(self.kitchen.menu.own)
+        assert self.search is not None
+        return NOTHING.at(self.search.candidates.own)
 
     @property
     def wanted(self) -> list[tuple[str, Recipe]]:
-        """The recipes by what they are, one that is both once; none where nothing keeps the bar."""
+        """The recipes by what they are, one that is both once; none where nothing passes."""
         if self.recipes is None:
             return []
         fewest, cheapest = self.recipes.fewest, self.recipes.cheapest
@@ -56,9 +73,9 @@ class Advised:
     @property
     def pasted(self) -> list[Candidate]:
         """The candidates to paste: the recipes, or where there is none the nearest of all runs."""
-        if self.kitchen is None or self.recipes is not None:
+        if self.search is None or self.recipes is not None:
             return [recipe.candidate for _, recipe in self.wanted]
-        nearest = best(self.kitchen)
+        nearest = best(self.search)
         return [nearest[0]] if nearest else []
 
 
@@ -75,27 +92,27 @@ def rows(one: Advised) -> list[Advice]:
         one.asked.margin,
         *("", "none", "", None, None, None, None, "", ""),
     )
-    if one.kitchen is None:
+    search = one.search
+    if search is None:
         assert isinstance(one.way, Refusal)
         return [replace(empty, remains=one.way.because)]
-    empty = replace(empty, shipped_cost=one.kitchen.cost(one.shipped))
+    empty = replace(empty, shipped_cost=search.cost(one.shipped))
     if one.recipes is None:
-        return [replace(empty, **_remains(one))]
-    return [_of(one, one.kitchen, want, recipe, empty) for want, recipe in one.wanted]
-
-
-def _of(one: Advised, kitchen: Kitchen, want: str, recipe: Recipe, empty: Advice) -> Advice:
-    worst, quantity = kitchen.bar.worst(recipe.candidate)
-    return replace(
-        empty,
-        want=want,
-        recipe=words(recipe.choice),
-        settings=settings(one.pair, recipe.candidate),
-        step=recipe.step,
-        cost=kitchen.cost(recipe.candidate),
-        ratio=worst,
-        quantity=quantity,
-    )
+        return [replace(empty, **_remains(one, search))]
+    return [
+        replace(
+            empty,
+            want=want,
+            recipe=words(recipe.choice),
+            settings=settings(one.pair, recipe.candidate),
+            step=recipe.candidate.step,
+            cost=search.cost(recipe.candidate),
+            ratio=worst,
+            quantity=quantity,
+        )
+        for want, recipe in one.wanted
+        for worst, quantity in [search.worst(recipe.candidate)]
+    ]
 
 
 def settings(pair: Pair, candidate: Candidate) -> str:
@@ -106,40 +123,41 @@ def settings(pair: Pair, candidate: Candidate) -> str:
 
 def words(choice: Choice) -> str:
     """`RK4 + impratio 100`: its one name, of the engine's own options and their values."""
-    return " + ".join(named_options(choice.options)) or "as shipped"
+    return (
+        " + ".join(_called(part, choice.options) for part in parts(choice.options)) or "as shipped"
+    )
 
 
-def _nothing(bar: Bar) -> str:
-    """Why no run has an error that could be told: in each of them one is without end."""
-    if not any(bar.known.values()):
-        return "every run diverges"
-    return "no run tells every quantity, and has each event as often as the textbook"
+def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
+    value = reduce(getitem, part, options)
+    if part == ("integrator",):
+        return str(value)
+    return ".".join(part) if value is True else f"{'.'.join(part)} {short_value(value)}"
 
 
-def _remains(one: Advised) -> dict[str, str | float]:
-    """Columns: what no recipe brings within the bar, what the engine leaves out of the scene."""
-    assert one.kitchen is not None
+def _remains(one: Advised, search: Search) -> dict[str, str | float]:
+    """Columns: what no recipe brings within, what the engine leaves out of the scene."""
     assert isinstance(one.way, Plan)
-    found, left_out = best(one.kitchen), one.way.simplified
-    if found is None:
-        return {"remains": "; ".join(filter(None, (_nothing(one.kitchen.bar), left_out)))}
-    candidate, worst, quantity = found
-    told = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
-    best_of = f"{told} at {milliseconds(candidate.step)}"
-    if worst <= 1.0:
-        margin = one.asked.margin
-        but = f"within what is asked for, but not by the margin of {margin:g}"
-        what = f"{quantity} is ×{worst:.2g} {best_of}: {but}"
+    nearest = best(search)
+    columns: dict[str, str | float] = {}
+    if nearest is None:
+        what = "no run tells every quantity, and has each event as often as the textbook"
+        if not search.runs.names:
+            what = "every run diverges"
     else:
-        what = f"{quantity} stays ×{worst:.2g} {best_of}, the best of all that was tried"
-    if not one.kitchen.bar.elsewhere.get(candidate, 0.0) <= 1.0:
-        where = "on other shapes" if one.shapes else "where a loop is cut elsewhere"
-        what = f"{quantity} is ×{worst:.2g} {best_of}, and not {where}"
-    if one.kitchen.bar.holds(candidate):
-        but = "and the next finer step does not confirm it"
-        what = f"{quantity} is ×{worst:.2g} {best_of}, {but}"
-    return {
-        "ratio": worst,
-        "quantity": quantity,
-        "remains": "; ".join(filter(None, (what, left_out))),
-    }
+        candidate, worst, quantity = nearest
+        options = f"with {as_text(candidate.options)}" if candidate.options else "as shipped"
+        at = f"{options} at {milliseconds(candidate.step)}"
+        what = f"{quantity} is ×{worst:.2g} {at}"
+        if search.passes(candidate):
+            what += ", and the next finer step does not confirm it"
+        elif not search.elsewhere.get(candidate, 0.0) <= 1.0:
+            what += (
+                f", and not {'on other shapes' if one.shapes else 'where a loop is cut elsewhere'}"
+            )
+        elif worst <= 1.0:
+            what += f": within what is asked for, but not by the margin of {one.asked.margin:g}"
+        else:
+            what = f"{quantity} stays ×{worst:.2g} {at}, the best of all that was tried"
+        columns = {"ratio": worst, "quantity": quantity}
+    return {**columns, "remains": "; ".join(filter(None, (what, one.way.simplified)))}

@@ -4,7 +4,7 @@ Static numbers say where to look, and stand beside what a run has shown; alone t
 """
 
 import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from math import inf
@@ -13,12 +13,10 @@ import numpy as np
 
 from ....cases.fields.number import Amount
 from ....cases.model_case import JOINTS, ModelCase, ModelStart
-from ....cases.trajectory import Array
 from ....engines.own_model.changed import Changed, changes, option
-from ....engines.own_model.limit import INTEGRATORS, Limit, NoLimit, apart_by_pairs, limit
+from ....engines.own_model.limit import INTEGRATORS, NoLimit, apart_by_pairs, limit
 from ....engines.own_model.model import OwnModel, joint_moves
 from ....engines.own_model.opened import Opened, opened
-from ....engines.own_model.quantities import Quantity
 from ....engines.own_model.seen import joint_of, motion_at_steps, servos, shaking, short_of_target
 from ....engines.own_model.static import ALONE, SHORT, Suspicion, short_times, suspicions
 from ...compare.own_seen import ARRIVES, FEW, LATE, seen
@@ -96,26 +94,24 @@ class OwnAdvice:
 
 @dataclass(frozen=True)
 class _Asked:
-    """A case opened, its bars as they are allowed, and how often errors have to fit into them."""
+    """A case, its model with the bars as they are allowed, and how often errors have to fit."""
 
     case: ModelCase
-    own: OwnModel
-    allowed: Mapping[Quantity, float]
+    opened: Opened
     margin: float
 
     @property
-    def opened(self) -> Opened:
-        """The model with bars in which errors fit with the margin."""
-        return Opened(self.own, {q: bar / self.margin for q, bar in self.allowed.items()})
+    def own(self) -> OwnModel:
+        return self.opened.own
 
     @property
-    def joints(self) -> Array:
-        """(n,) [rad, m] what each velocity's joint may be off."""
-        return Opened(self.own, self.allowed).joints
+    def strict(self) -> Opened:
+        """The model with bars in which errors fit with the margin."""
+        return Opened(self.own, {q: bar / self.margin for q, bar in self.opened.bars.items()})
 
-    def seen(self, exact: Limit, until: float) -> Mapping[int | None, str]:
-        """Returns by velocity what a person sees at its own steps, and not of its own equations."""
-        return seen(Opened(self.own, self.allowed), exact, until).joints
+    def of(self, own: OwnModel) -> "_Asked":
+        """The same asked of another model."""
+        return replace(self, opened=replace(self.opened, own=own))
 
 
 def advised(case: ModelCase, tolerance: float | None, margin: float) -> OwnAdvice:
@@ -130,7 +126,7 @@ def advised(case: ModelCase, tolerance: float | None, margin: float) -> OwnAdvic
     if not own.model.nv:
         return OwnAdvice(case.name, told, margin, (), "nothing moves")
     suspected = suspicions(own)
-    asked = _Asked(case, own, ready.bars, margin)
+    asked = _Asked(case, ready, margin)
     try:
         tried = [_tried(asked, suspected)]
         further = _further(asked, suspected)
@@ -154,7 +150,7 @@ def _further(asked: _Asked, suspected: Sequence[Suspicion]) -> _Asked | None:
         beyond = not servo.control[0] <= start.ctrl[servo.u] + by <= servo.control[1]
         start.ctrl[servo.u] = np.clip(start.ctrl[servo.u] + (-by if beyond else by), *servo.control)
     begins = f"{own.started.removeprefix('from ')}, each servo's target {FURTHER} rad or m further"
-    return replace(asked, own=replace(own, begun=start, begins=begins))
+    return asked.of(replace(own, begun=start, begins=begins))
 
 
 def _would_be_seen(asked: _Asked) -> bool:
@@ -163,24 +159,24 @@ def _would_be_seen(asked: _Asked) -> bool:
     if moved is None:
         return True
     times, y = moved
-    shakes = shaking(asked.own, times, y, asked.joints)
+    shakes = shaking(asked.own, times, y, asked.opened.joints)
     short = short_of_target(asked.own, float(times[-1]), y[-1])
     late = any(shake.ends >= LATE * times[-1] for shake in shakes.values())
-    return late or any(off > asked.joints[k] for k, off in short.items())
+    return late or any(off > asked.opened.joints[k] for k, off in short.items())
 
 
 def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     own, h = asked.own, asked.own.model.opt.timestep
     mine = integrator_of(own, Setting(OWN, {}, h))
     named = [Setting(i, {"integrator": i}, h) for i in INTEGRATORS if i != mine]
-    result = steps(asked.case, asked.opened, ("solver",), named)
+    result = steps(asked.case, asked.strict, ("solver",), named)
     exact = result.limit
     first, *others = result.settings
     known = f"{exact.method}, known to {result.known:.0e} rad or m"
     told = Tried(own.started, known, result.until, _recipe(asked, first, h))
-    if result.known > KNOWN * min(asked.allowed.values()):
+    if result.known > KNOWN * min(asked.opened.bars.values()):
         return replace(told, because="its limit is not known well enough to judge steps")
-    shown = asked.seen(exact, result.until)
+    shown = seen(asked.opened, exact, result.until).joints
     coarsest = _coarsest(asked, result, [first, *others[-len(named) :]])
     usable = [recipe for recipe in coarsest if recipe.keeps]
     own_ratio = inf if told.own.ratio is None else told.own.ratio
@@ -192,7 +188,9 @@ def _tried(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
         at_own = [each for each in others if (each.keeps or 0.0) >= h]
         cures += [_recipe(asked, each, h) for each in at_own]
         cures += [recipe for recipe in usable if recipe.integrator == mine and recipe.step < h]
-    for kind in changes(asked.case, own, _simple(own, shown)):
+    kinds = own.model.jnt_type[own.model.dof_jntid]
+    simple = [k for k in shown if k is not None and kinds[k] in ALONE]  # they turn, or shift
+    for kind in changes(asked.case, own, simple):
         tried = (_changed(asked, change, result) for change in kind)
         cures += [*islice(filter(None, tried), 1)]
     return replace(
@@ -211,7 +209,7 @@ def _recipe(asked: _Asked, stepped: Stepped, step: float) -> Recipe:
     ratios = {
         quantity: (error.ladder.errors.get(step, inf) if error.ladder else inf) / bar
         for (quantity, bar), error in zip(
-            asked.allowed.items(), stepped.errors.values(), strict=True
+            asked.opened.bars.items(), stepped.errors.values(), strict=True
         )
     }
     worst = max(ratios, key=lambda quantity: ratios[quantity])
@@ -242,7 +240,7 @@ def _coarsest(asked: _Asked, result: Steps, rows: Sequence[Stepped]) -> list[Rec
         recipe, best = recipes[k], _cheapest(recipes)
         if recipe.keeps is None and (best is None or 2 * recipe.cost < best.cost):
             setting = replace(rows[k].setting, step=rows[k].setting.step / FINE)
-            finer = in_setting(asked.opened, setting, result.limit, result.until)
+            finer = in_setting(asked.strict, setting, result.limit, result.until)
             recipes[k] = _recipe(asked, finer, _step(asked, finer))
     return recipes
 
@@ -272,16 +270,16 @@ def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
 
     What it is compared with is its own limit: it has equations of its own.
     """
-    new, m = replace(asked, own=change.own), asked.own.model
+    new, m = asked.of(change.own), asked.own.model
     moved = motion_at_steps(new.own, before.until)
-    if moved is None or shaking(new.own, *moved, new.joints):
+    if moved is None or shaking(new.own, *moved, new.opened.joints):
         return None
-    result = steps(asked.case, new.opened, (OF_STIFF,))
-    if new.seen(result.limit, result.until):
+    result = steps(asked.case, new.strict, (OF_STIFF,))
+    if seen(new.opened, result.limit, result.until).joints:
         return None
     both = before.limit.times <= min(before.until, result.until)
     off = np.abs(joint_moves(m, before.limit.q, result.limit.q))[both].max(axis=0)
-    k = int(np.argmax(off / asked.joints))
+    k = int(np.argmax(off / asked.opened.joints))
     name, unit = joint_of(m, k)
     return replace(
         _recipe(new, result.settings[0], m.opt.timestep),
@@ -290,12 +288,6 @@ def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
         moves=f"{name} by up to {off[k]:.2g} {unit}",
         then=_cheapest(_coarsest(new, result, result.settings)),
     )
-
-
-def _simple(own: OwnModel, shown: Mapping[int | None, str]) -> list[int]:
-    """Returns the velocities among them of joints that turn or shift, and do no more."""
-    kinds = own.model.jnt_type[own.model.dof_jntid]
-    return [k for k in shown if k is not None and kinds[k] in ALONE]
 
 
 def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
@@ -310,9 +302,9 @@ def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
     except NoLimit:
         return
     off = np.abs(joint_moves(model, result.limit.q, written.q))[result.limit.times <= result.until]
-    ratios = off.max(axis=0) / asked.joints
+    ratios = off.max(axis=0) / asked.opened.joints
     k = int(np.argmax(ratios))
-    if off[:, k].max() > asked.joints[k] + result.known + written.error:
+    if off[:, k].max() > asked.opened.joints[k] + result.known + written.error:
         name, unit = joint_of(model, k)
         who = ", ".join(
             [*[element for element, _ in raised[:FEW]], *(["…"] if raised[FEW:] else [])]

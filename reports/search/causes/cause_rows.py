@@ -1,54 +1,30 @@
 """Rows of causes.csv: each cure in words, with its options, its step and its price."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import takewhile
+from dataclasses import replace
 
-from ....engines.engine import Cost, Tunable
-from ....engines.knobs import Options, as_text
-from ...compare.trial.start import first
-from ...runs.tasks import Pair
+from ....engines.knobs import as_text
 from ...tables.row import Cause, Comparison, Rungs, StepError, as_written
 from .candidate import Candidate
-from .change import STEP, Field
+from .change import STEP
 from .cures import LARGEST, Cure, Cured
-from .parallel_search import Known
-from .why import OURS
+from .errors import Errors
+from .why import OURS, key_of
 
 NONE = "none found"
 NOTHING = "nothing can be changed: it is asked of states, without a run"
+Cost = Callable[[Candidate], float]
 
 
-@dataclass(frozen=True)
-class Unexplained:
-    """The rows of a pair that have to be searched."""
-
-    pair: Pair
-    field: Field
-    rows: Sequence[Comparison]
-
-    def cost(self, candidate: Candidate) -> float:
-        """Over that of the rows' own setting."""
-        base = self._cost(self.field.base.options, self.field.base.step)
-        return self._cost(candidate.options, candidate.step) / base
-
-    @cached_property
-    def _cost(self) -> Cost:
-        engine = self.pair.engine
-        assert isinstance(engine, Tunable)
-        return engine.cost(self.pair.case.scene, first(self.pair.reference()))
+def by_search(row: Comparison, cured: Cured, cost: Cost) -> list[Cause]:
+    """A row for each cure, the cheapest first; cost: over that of the row's own setting."""
+    cures = sorted(cured.cures, key=lambda cure: cost(cure.candidate))
+    return [_cause(row, cure, cost, cured.elsewhere) for cure in cures] or [without(row, NONE)]
 
 
-def searched(asked: Unexplained, row: Comparison, cured: Cured) -> list[Cause]:
-    """A row for each cure, the cheapest first."""
-    found = sorted(cured.cures, key=lambda cure: asked.cost(cure.candidate))
-    return [_cause(asked, row, cure, cured.elsewhere) for cure in found] or [without(row, NONE)]
-
-
-def _cause(asked: Unexplained, row: Comparison, cure: Cure, elsewhere: bool) -> Cause:
-    words = " + ".join(lever.words for lever in cure.turned)
-    if len(cure.turned) > LARGEST:
+def _cause(row: Comparison, cure: Cure, cost: Cost, elsewhere: bool) -> Cause:
+    words = " + ".join(change.words for change in cure.changes)
+    if len(cure.changes) > LARGEST:
         words = f"all of {words}"  # fewer may do: not all sets of them were tried
     return replace(
         without(row, f"{words}, but for the instant" if elsewhere else words),
@@ -56,7 +32,7 @@ def _cause(asked: Unexplained, row: Comparison, cure: Cure, elsewhere: bool) -> 
         step=cure.candidate.step,
         # As the report says them: a sentence about a row that is carried over must be the same.
         error_after=as_written(cure.error * (row.allowed or 0.0)),
-        cost=as_written(asked.cost(cure.candidate)),
+        cost=as_written(cost(cure.candidate)),
         law=cure.law,
     )
 
@@ -70,70 +46,30 @@ def by_ours(row: Comparison, agreeing: Sequence[Comparison]) -> list[Cause]:
 
 
 def by_ladder(
-    rows: Sequence[Comparison],
-    steps: Sequence[StepError],
-    ladders: Sequence[Rungs],
-    own: Callable[[Comparison], Options],
+    rows: Sequence[Comparison], steps: Sequence[StepError], ladders: Sequence[Rungs]
 ) -> Iterator[Cause]:
-    """The step, where a row's own ladder knows one that is small enough.
-
-    own: the options of the row's setting.
-    """
-    for row, step, error in usable(rows, steps, ladders):
-        yield replace(
-            without(row, STEP.words),
-            options=as_text(own(row)),
-            step=step,
-            error_after=as_written(error),
-        )
+    """The step, where a row's own held ladder knows one from which on it keeps what is allowed."""
+    usable = {_at(one): one.usable_step for one in ladders if one.ladder == "held"}
+    errors = {(*_at(one), one.step): one.error for one in steps if one.ladder == "held"}
+    for row in rows:
+        step = usable.get(_at(row))
+        error = errors.get((*_at(row), step or 0.0))
+        if error is not None:
+            yield replace(without(row, STEP.words), step=step, error_after=as_written(error))
 
 
 def without(row: Comparison, words: str) -> Cause:
     """Nothing is known but that it is off."""
-    return Cause(
-        row.case,
-        row.engine,
-        row.setting,
-        row.quantity,
-        row.error,
-        row.allowed,
-        words,
-        *("", None, None, None, ""),
-    )
-
-
-# Reads the ladder that a row's own setting has already: its errors at smaller steps.
-
-
-def usable(
-    rows: Sequence[Comparison], steps: Sequence[StepError], ladders: Sequence[Rungs]
-) -> Iterator[tuple[Comparison, float, float]]:
-    """Rows with the largest step [s] from which on their held ladder keeps what is allowed, and
-    the error there; those that have one.
-
-    Of what strikes that is smaller than the errors say, which are those of one start.
-    """
-    largest = {_at(rung): rung.usable_step or 0.0 for rung in ladders if rung.ladder == "held"}
-    held: dict[tuple[str, ...], list[StepError]] = {}
-    for one in steps:
-        if one.ladder == "held" and one.step <= largest.get(_at(one), 0.0):
-            held.setdefault(_at(one), []).append(one)
-    for row in rows:
-        if kept := _kept(held.get(_at(row), ()), row.allowed or 0.0):
-            yield row, kept[-1].step, kept[-1].error
+    return Cause(*key_of(row), row.error, row.allowed, words, *("", None, None, None, ""))
 
 
 def _at(row: Comparison | Rungs | StepError) -> tuple[str, ...]:
     return row.case, row.engine, row.setting, row.realised, row.quantity
 
 
-def _kept(ladder: Sequence[StepError], allowed: float) -> list[StepError]:
-    """The steps up to the last before the first that does not keep it."""
-    climbed = sorted(ladder, key=lambda one: one.step)
-    return [*takewhile(lambda one: one.error <= allowed, climbed)]
-
-
-def climbed(base: Candidate, rows: Sequence[Comparison], steps: Sequence[StepError]) -> Known:
+def climbed(
+    base: Candidate, rows: Sequence[Comparison], steps: Sequence[StepError]
+) -> dict[Candidate, Errors]:
     """The errors of the rows at the ladder's steps, if it tells all of them.
 
     steps: of the case in the engine with that setting. An error of all samples stands for that
@@ -143,21 +79,12 @@ def climbed(base: Candidate, rows: Sequence[Comparison], steps: Sequence[StepErr
     native = [one for one in steps if one.realised == "native"]
     if any(one.ladder != "held" for one in native):
         return {}
-    of: dict[str, dict[float, float]] = {}
+    allowed = {row.quantity: row.allowed for row in rows if row.allowed}
+    ladder: dict[float, dict[str, tuple[float, float]]] = {}
     for one in native:
-        of.setdefault(one.quantity, {})[one.step] = one.error
-    allowed = {row.quantity: row.allowed for row in rows}
-    ladders = {tuple(sorted(errors)) for errors in of.values()}
-    if not (set(allowed) <= set(of) and len(ladders) == 1):
+        if allow := allowed.get(one.quantity):
+            ladder.setdefault(one.step, {})[one.quantity] = (one.error / allow, one.error / allow)
+    whole = {step: errors for step, errors in ladder.items() if errors.keys() == allowed.keys()}
+    if base.step not in whole:
         return {}
-    (ladder,) = ladders
-    if ladder[-1] != base.step:
-        return {}
-    return {
-        base.at(step): {
-            name: (of[name][step] / allow, of[name][step] / allow)
-            for name, allow in allowed.items()
-            if allow
-        }
-        for step in ladder[:-1]  # the last is the row's own
-    }
+    return {base.at(step): errors for step, errors in whole.items() if step != base.step}

@@ -5,12 +5,13 @@ is another than that of a committed row, nor the error that it explains, it is t
 that was built anew under its version may still be another one: then some verdict on the case is.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from .... import engines
 from ....engines.engine import Tunable
-from ....engines.knobs import Options
+from ....engines.knobs import Options, as_text
 from ....reference.solve import Solution
 from ...compare.trial.ladder import judged_step
 from ...compare.trial.start import first
@@ -18,13 +19,15 @@ from ...runs.task_results import Results
 from ...runs.tasks import Pair, solved
 from ...tables.row import UNSEARCHED, Cause, Comparison, Known, Rungs, StepError, as_written
 from .candidate import Candidate
-from .cause_rows import NONE, NOTHING, Unexplained, by_ladder, by_ours, climbed, searched, without
-from .change import STEP, Field, halved, levers, remainder, wholes
-from .cures import Cured, cures
-from .parallel_search import Search, lost, together
+from .cause_rows import NONE, NOTHING, Cost, by_ladder, by_ours, by_search, climbed, without
+from .change import STEP, Field, halved, knob_changes, presets, rest
+from .cures import cured
+from .search import Runs, at_own_samples, lost, together
 from .why import Key, Rows, key_of
 
 LETTERS = 12  # of a word: two searches never share them
+Where = tuple[str, str, str]
+"""A pair's case, engine and setting."""
 
 
 def causes(
@@ -41,38 +44,29 @@ def causes(
 
     known: what is carried over where it stands on the same.
     """
-    rows = Rows(comparisons, ladders)
-    off, found = list(rows.off()), dict[tuple[str, ...], list[Cause]]()
-    for row in off:
-        if ours := rows.ours(row):
-            found[key_of(row)] = by_ours(row, ours)
-    left, pairs = [row for row in off if key_of(row) not in found], list(pairs)
-    states = {pair.case.name for pair in pairs if pair.case.states is not None}
-    found |= {key_of(row): [without(row, NOTHING)] for row in left if row.case in states}
+    rows, by_where = Rows(comparisons, ladders), {_where(pair): pair for pair in pairs}
+    off = {key_of(row): row for row in rows.off()}
+    by_row = {key: by_ours(row, ours) for key, row in off.items() if (ours := rows.ours(row))}
+    unexplained = {key: row for key, row in off.items() if key not in by_row}
+    states = {case for (case, _, _), pair in by_where.items() if pair.case.states is not None}
+    by_row |= {key: [without(off[key], NOTHING)] for key in unexplained if key[0] in states}
     if search:
-        of = {_where_of(pair): pair for pair in pairs}
-        own = lambda row: _own(of[_where(row)]) if _where(row) in of else {}  # noqa: E731
-        found |= {key_of(cause): [cause] for cause in by_ladder(left, steps, ladders, own)}
-        words = _words(left, pairs, results)
-        moved = _moved(comparisons, known) if known else set[tuple[str, str]]()
-        same = [row for row in left if (row.case, row.engine) not in moved]
-        carried = _carried(same, words, known.causes) if known else {}
-        found |= carried
-        left = [row for row in left if key_of(row) not in carried]
-        for asked, cured in _searched(left, steps, pairs, results):
-            for row in asked.rows:
-                causes = searched(asked, row, cured[row.quantity])
-                found[key_of(row)] = [replace(c, searched_with=words[_where(row)]) for c in causes]
+        asked = {key[:3]: by_where[key[:3]] for key in unexplained if key[:3] in by_where}
+        words = {where: _word(pair, results) for where, pair in asked.items()}
+        for cause in by_ladder([*unexplained.values()], steps, ladders):
+            options = _own(asked[key_of(cause)[:3]]) if key_of(cause)[:3] in asked else {}
+            by_row[key_of(cause)] = [replace(cause, options=as_text(options))]
+        carried = _carried(unexplained, comparisons, words, known) if known else {}
+        by_row |= carried
+        rest = [row for key, row in unexplained.items() if key not in carried]
+        for key, cures in _searched(rest, steps, asked, results).items():
+            by_row[key] = [replace(cause, searched_with=words[key[:3]]) for cause in cures]
     last = NONE if search else UNSEARCHED
-    told = (cause for row in off for cause in found.get(key_of(row), [without(row, last)]))
-    return list(dict.fromkeys(told))  # two ways to the same set are one cause
+    every = (cause for key, row in off.items() for cause in by_row.get(key, [without(row, last)]))
+    return list(dict.fromkeys(every))  # two ways to the same set are one cause
 
 
-def _where(row: Comparison) -> tuple[str, str, str]:
-    return row.case, row.engine, row.setting
-
-
-def _where_of(pair: Pair) -> tuple[str, str, str]:
+def _where(pair: Pair) -> Where:
     return pair.case.name, pair.engine.name, pair.engine.setting
 
 
@@ -84,99 +78,93 @@ def _own(pair: Pair) -> Options:
     return {k: v for k, v in getattr(engine, "options", {}).items() if k != "step"}
 
 
-def _words(
-    rows: Sequence[Comparison], pairs: Iterable[Pair], results: Results
-) -> dict[tuple[str, str, str], str]:
-    """For each of the rows' pairs: engine version and key of a search; empty where it has none."""
-    asked = {_where(row) for row in rows}
-    words: dict[tuple[str, str, str], str] = {}
-    for pair in pairs:
-        where = _where_of(pair)
-        if where in asked:
-            word = results.keys.search(pair.case, pair.engine)
-            words[where] = f"{pair.engine.version} {word[:LETTERS]}" if word else ""
-    return words
-
-
-def _moved(comparisons: Sequence[Comparison], known: Known) -> set[tuple[str, str]]:
-    """Cases and engines of which some verdict is another one than it was."""
-    return {
-        (row.case, row.engine)
-        for row in comparisons
-        for key in [(*_where(row), row.realised, row.quantity)]
-        if known.verdicts.get(key) != row.verdict
-    }
+def _word(pair: Pair, results: Results) -> str:
+    """Engine version and key of a search; empty where it has none."""
+    word = results.keys.search(pair.case, pair.engine)
+    return f"{pair.engine.version} {word[:LETTERS]}" if word else ""
 
 
 def _carried(
-    rows: Sequence[Comparison],
-    words: Mapping[tuple[str, str, str], str],
-    known: Mapping[Key, Sequence[Cause]],
+    rows: Mapping[Key, Comparison],
+    comparisons: Sequence[Comparison],
+    words: Mapping[Where, str],
+    known: Known,
 ) -> dict[Key, list[Cause]]:
-    """For each row that is as the known causes found it: all of its causes."""
-    found: dict[Key, list[Cause]] = {}
-    for row in rows:
-        word, before = words[_where(row)], known.get(key_of(row), ())
-        asked = (word, as_written(row.error), as_written(row.allowed))
-        if word and before and all(_asked(cause) == asked for cause in before):
-            found[key_of(row)] = list(before)
-    return found
+    """For each row that is as the known causes found it: all of its causes.
+
+    None of a case in an engine of which some verdict is another one than it was.
+    """
+    moved = {
+        (row.case, row.engine)
+        for row in comparisons
+        if known.verdicts.get((*key_of(row)[:3], row.realised, row.quantity)) != row.verdict
+    }
+    return {
+        key: list(before)
+        for key, row in rows.items()
+        if key[:2] not in moved
+        and (before := known.causes.get(key))
+        and (word := words.get(key[:3]))
+        and all(_asked(cause, cause.searched_with) == _asked(row, word) for cause in before)
+    }
 
 
-def _asked(cause: Cause) -> tuple[str, float | None, float | None]:
-    return cause.searched_with, as_written(cause.error), as_written(cause.allowed)
+def _asked(row: Cause | Comparison, word: str) -> tuple[str, float | None, float | None]:
+    return word, as_written(row.error), as_written(row.allowed)
 
 
 def _searched(
-    rows: Sequence[Comparison], steps: Sequence[StepError], pairs: Iterable[Pair], results: Results
-) -> Iterator[tuple[Unexplained, Mapping[str, Cured]]]:
-    of: dict[tuple[str, str, str], list[Comparison]] = {}
+    rows: Sequence[Comparison],
+    steps: Sequence[StepError],
+    pairs: Mapping[Where, Pair],
+    results: Results,
+) -> dict[Key, list[Cause]]:
+    """The causes of each row of a pair that can be searched."""
+    of: dict[Where, list[Comparison]] = {}
     for row in rows:
-        of.setdefault(_where(row), []).append(row)
+        of.setdefault(key_of(row)[:3], []).append(row)
     tunable = {
-        key: pair
-        for pair in pairs
-        for key in [_where_of(pair)]
-        if key in of and pair.case.states is None and isinstance(pair.engine, Tunable)
+        where: pair
+        for where, pair in pairs.items()
+        if where in of and pair.case.states is None and isinstance(pair.engine, Tunable)
     }
-    asked: dict[str, Unexplained] = {}
-    searches: dict[str, Search[dict[str, Cured]]] = {}
-    referenced = {" ".join(key): (key, p) for key, p in _referenced(tunable, results).items()}
-    broken = lost({name: pair for name, (_, pair) in referenced.items()}, results)
-    for name, (key, pair) in referenced.items():
-        if name in broken:
-            continue
-        levers = between(pair)
-        mine = [one for one in steps if (one.case, one.engine, one.setting) == key]
-        strikes = pair.reference().blows.size > 0  # a ladder tells of one start alone
-        runs = {} if strikes else climbed(levers.base, of[key], mine)
-        asked[name] = Unexplained(pair, levers, of[key])
-        looking = cures(levers, runs, [row.quantity for row in of[key]])
-        searches[name] = Search(pair, runs, looking)
-    found = together("causes", searches, results)
-    for name, one in asked.items():
-        yield one, found[name]
+    referenced = _referenced(tunable, results)
+    broken = lost(referenced, results)
+    searches: dict[Key, Callable[[], list[Cause]]] = {}
+    for where, pair in referenced.items():
+        if where not in broken:
+            field, runs = between(pair), Runs(pair)
+            mine = [one for one in steps if (one.case, one.engine, one.setting) == where]
+            if not pair.reference().blows.size:  # a ladder tells of one start alone
+                for candidate, errors in climbed(field.base, of[where], mine).items():
+                    runs.add(candidate, errors)
+            asked = partial(_cures, field=field, runs=runs, cost=_cost(pair, field.base))
+            searches |= {key_of(row): partial(asked, row) for row in of[where]}
+    return together("causes", searches, results)
 
 
-def _referenced(
-    pairs: Mapping[tuple[str, str, str], Pair], results: Results
-) -> dict[tuple[str, str, str], Pair]:
+def _cures(row: Comparison, field: Field, runs: Runs, cost: Cost) -> list[Cause]:
+    return by_search(row, cured(field, runs, row.quantity), cost)
+
+
+def _cost(pair: Pair, base: Candidate) -> Cost:
+    """The cost of a candidate over the base's."""
+    engine = pair.engine
+    assert isinstance(engine, Tunable)
+    cost = engine.cost(pair.case.scene, first(pair.reference()))
+    return lambda one: cost(one.options, one.step) / cost(base.options, base.step)
+
+
+def _referenced(pairs: Mapping[Where, Pair], results: Results) -> dict[Where, Pair]:
     """With the samples that the engine's own step meets; their references are in the store."""
-    sampled = {key: pair.sampled for key, pair in pairs.items()}
-    keys = {key: results.keys.solution(case) for key, case in sampled.items()}
-    others = {
-        keys[key]: sampled[key] for key, pair in pairs.items() if sampled[key] is not pair.case
-    }
+    sampled = {where: at_own_samples(pair, results) for where, pair in pairs.items()}
+    others = {p.key: p.case for where, p in sampled.items() if p.case is not pairs[where].case}
     answers = results.of("references", solved, others) if others else {}
-    lost = {key for key, answer in answers.items() if not isinstance(answer, Solution)}
-    return {
-        key: replace(pair, case=sampled[key], key=keys[key])
-        for key, pair in pairs.items()
-        if keys[key] not in lost
-    }
+    lacking = {key for key, answer in answers.items() if not isinstance(answer, Solution)}
+    return {where: pair for where, pair in sampled.items() if pair.key not in lacking}
 
 
-# The levers and the steps that lie between a row's own setting and the tuned one.
+# The changes and the steps that lie between a row's own setting and the tuned one.
 
 
 ALONE = 16  # times finer: as far as an engine's own ladder goes, or to the tuned setting's step
@@ -193,11 +181,16 @@ def between(pair: Pair) -> Field:
     if engine.setting == "tuned":
         base = Candidate.of(_own(pair), step)
         steps = halved(step, step / FINEST)
-        return Field(base, [STEP], steps, steps, wholes=wholes(knobs))
+        return Field(base, [STEP], steps, steps, presets=presets(knobs))
     own = _own(pair)
     best = [engines.make(engine.name, "tuned")] if "tuned" in engines.settings(engine.name) else []
     least = min((judged_step(case, tuned) for tuned in best), default=step)
-    found = levers(knobs, own)
     beside, alone = (halved(step, min(step / finer, least)) for finer in (BESIDE, ALONE))
-    rest = remainder(knobs, engine.recipe(case.scene, start)) if best else None
-    return Field(Candidate.of(own, step), [*found, STEP], beside, alone, rest, wholes(knobs))
+    return Field(
+        Candidate.of(own, step),
+        [*knob_changes(knobs, own), STEP],
+        beside,
+        alone,
+        rest(knobs, engine.recipe(case.scene, start)) if best else (),
+        presets(knobs),
+    )

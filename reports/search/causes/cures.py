@@ -11,54 +11,141 @@ from itertools import combinations
 import numpy as np
 
 from .candidate import Candidate
-from .change import STEP, Field, Lever, Turned
+from .change import STEP, Change, Changes, Field
 from .errors import of
-from .parallel_search import Asking, Known
+from .search import Ladder, Runs, fewest
 
-# Which levers matter to a row: of many most do not, and sets with those need not be tried.
-
-
+LARGEST = 4  # changes in a set whose smaller ones have all been tried
+LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others
+PAIR = 2  # changes: so many are tried with the step whatever else cures
+MANY = 6  # changes, from which on it pays to ask first which of them matter
 SAME = 0.1  # of an error: a change of less than that is none
 
 
 @dataclass(frozen=True)
-class Setting:
-    """Levers and runs of a search for cures; elsewhere: whether beside instants anything may be."""
+class Cure:
+    """A smallest set, at the largest step of the ladder from which on it keeps the bound."""
+
+    changes: Changes
+    candidate: Candidate
+    error: float  # over what is allowed
+    law: str
+
+
+@dataclass(frozen=True)
+class Cured:
+    """The cures of one row, of the smallest size, or none.
+
+    elsewhere: they cure what is not beside an instant; with the instant nothing does.
+    """
+
+    cures: Sequence[Cure] = ()
+    elsewhere: bool = False
+
+
+@dataclass(frozen=True)
+class RowErrors:
+    """The errors of a row's quantity over what is allowed; elsewhere: away from instants."""
 
     field: Field
-    known: Known
-    elsewhere: bool
+    runs: Runs
+    quantity: str
+    elsewhere: bool = False
 
-    def error(self, candidate: Candidate, row: str) -> float:
-        """The error of the row's quantity, over what is allowed."""
-        return of(self.known[candidate], row, elsewhere=self.elsewhere)
+    def __call__(self, candidate: Candidate) -> float:
+        return of(self.runs.known[candidate], self.quantity, elsewhere=self.elsewhere)
 
 
-def that_matter(search: Setting, rows: Sequence[str]) -> Asking[dict[str, list[Lever]]]:
-    """For each row the levers that change its error, put in alone or taken out of all.
+def cured(field: Field, runs: Runs, quantity: str) -> Cured:
+    """The cures of the whole error, or else of the one away from instants."""
+    runs.need([field.base])
+    whole, away = (RowErrors(field, runs, quantity, elsewhere) for elsewhere in (False, True))
+    if cures := _cures(whole):
+        return Cured(cures)
+    if 1.0 < away(field.base) < whole(field.base) and (cures := _cures(away)):
+        return Cured(cures, elsewhere=True)
+    return Cured()
+
+
+def _cures(errors: RowErrors) -> list[Cure]:
+    field, runs = errors.field, errors.runs
+    sets = ([_ladder(field, each) for each in group] for group in _groups(errors))
+    cures = fewest(runs, sets, lambda candidate: errors(candidate) <= 1.0)
+    least = min((len(changes) for changes, _ in cures), default=0)
+    cures = [(changes, usable) for changes, usable in cures if len(changes) == least]
+    along = [field.along(changes) for changes, _ in cures]
+    runs.need(candidate for _, candidates in along for candidate in candidates.values())
+    return [
+        Cure(changes, usable, errors(usable), law(name, {x: errors(c) for x, c in by_x.items()}))
+        for (changes, usable), (name, by_x) in zip(cures, along, strict=True)
+    ]
+
+
+def _ladder(field: Field, changes: Changes) -> Ladder[Changes]:
+    """The steps by which it is seen whether a set cures for good.
+
+    Of one with the step all below its own; of any other its own and the next finer one: at one step
+    alone an error beside an event may be small by luck.
+    """
+    own, *finer = field.ladder(changes)
+    if STEP in changes:
+        return Ladder(changes, finer, confirmed=False)
+    return Ladder(changes, [own, own.at(own.step / 2)])
+
+
+def _groups(errors: RowErrors) -> Iterator[Iterable[Changes]]:
+    """Sets of changes, the smallest first; beyond the largest, all that matter, and all there are.
+
+    Beside more than one other a smaller step is tried where nothing else is enough: it costs most,
+    to try as to use. Alone it is known from an engine's ladder. At last presets, which a set that
+    only goes on the way to the tuned recipe never meets.
+    """
+    field, changes = errors.field, errors.field.changes
+    for size in range(1, LARGEST + 1):
+        if size == 2 and len(changes) >= MANY:
+            changes = _that_matter(errors)
+        kept, finer = _by_step(combinations(changes, size))
+        if size <= PAIR:
+            yield [*kept, *finer]
+        else:
+            yield kept
+            yield finer if size <= LARGEST_FINER else ()
+    knobs = tuple(change for change in changes if change is not STEP)
+    every = (knobs, (*knobs, STEP), (*field.changes, *field.rest))
+    yield from _by_step(each for each in every if len(each) > LARGEST_FINER)
+    yield [(preset,) for preset in field.presets]
+    yield [(preset, STEP) for preset in field.presets]
+
+
+def _by_step(sets: Iterable[Changes]) -> tuple[list[Changes], list[Changes]]:
+    """Those that keep the step, and those that do not."""
+    every = list(sets)
+    return [each for each in every if STEP not in each], [each for each in every if STEP in each]
+
+
+def _that_matter(errors: RowErrors) -> list[Change]:
+    """The changes that move the error, put in alone or taken out of all: most do not.
 
     Both are asked, the second at a step half-way down: from afar a motion may be as far off with a
-    lever as without it. Alone they have been asked before.
+    change as without it. Alone they have been asked before.
     """
-    field = search.field
+    field = errors.field
     step = field.steps[len(field.steps) // 2]
-    knobs = [lever for lever in field.levers if lever is not STEP]
+    knobs = [change for change in field.changes if change is not STEP]
     every = field.candidate(knobs).at(step)
     without = {one: field.candidate(k for k in knobs if k is not one).at(step) for one in knobs}
-    yield [every, *without.values()]
+    errors.runs.need([every, *without.values()])
 
-    def matters(lever: Lever, row: str) -> bool:
-        if lever is STEP:
-            return True
-        ends = (field.base, field.candidate([lever])), (every, without[lever])
-        return any(_differ(*(search.error(c, row) for c in end)) for end in ends)
+    def differ(a: Candidate, b: Candidate) -> bool:
+        return not abs(errors(a) - errors(b)) <= SAME * max(errors(a), errors(b))  # of two inf too
 
-    return {row: [lever for lever in field.levers if matters(lever, row)] for row in rows}
-
-
-def _differ(one: float, other: float) -> bool:
-    """Two that are inf tell nothing of a lever: it is kept."""
-    return not abs(one - other) <= SAME * max(one, other)
+    return [
+        change
+        for change in field.changes
+        if change is STEP
+        or differ(field.base, field.candidate([change]))
+        or differ(every, without[change])
+    ]
 
 
 # How an error follows one number: a power law, where there is one.
@@ -80,137 +167,3 @@ def law(name: str, errors: Mapping[float, float]) -> str:
     power, factor = np.polyfit(np.log(x), np.log(y), 1)
     off = np.abs(np.exp(factor) * x**power / y - 1)
     return f"{name}^{power:.2g}" if abs(power) >= FLAT and np.all(off <= FITS) else ""
-
-
-LARGEST = 4  # levers in a set whose smaller ones have all been tried
-LARGEST_FINER = 3  # with a smaller step: each such run takes as long as ten others
-WHOLE = LARGEST + 2  # levers: in their place recipes as a whole, each alone and with the step
-PAIR = 2  # levers, the step one of them: so many are tried whatever else cures
-MANY = 6  # levers, from which on it pays to ask first which of them matter
-
-
-@dataclass(frozen=True)
-class Cure:
-    """A smallest set, at the largest step of the ladder from which on it keeps the bound."""
-
-    turned: Turned
-    candidate: Candidate
-    error: float  # over what is allowed
-    law: str
-
-
-@dataclass(frozen=True)
-class Cured:
-    """The cures of one row, of the smallest size, or none.
-
-    elsewhere: they cure what is not beside an instant; with the instant nothing does.
-    """
-
-    cures: Sequence[Cure] = ()
-    elsewhere: bool = False
-
-
-def cures(field: Field, known: Known, rows: Sequence[str]) -> Asking[dict[str, Cured]]:
-    """By quantity: of the whole error, or else of the one away from instants."""
-    yield [field.base]
-    whole, away = (Setting(field, known, elsewhere) for elsewhere in (False, True))
-    found = yield from _smallest(whole, rows)
-    left = [
-        row
-        for row in rows
-        if row not in found and 1.0 < away.error(field.base, row) < whole.error(field.base, row)
-    ]
-    others = yield from _smallest(away, left)
-    cured = {row: Cured(sets) for row, sets in found.items()}
-    cured |= {row: Cured(sets, elsewhere=True) for row, sets in others.items()}
-    return {row: cured.get(row, Cured()) for row in rows}
-
-
-def _smallest(search: Setting, rows: Sequence[str]) -> Asking[dict[str, Sequence[Cure]]]:
-    """The cures of each row that has any.
-
-    Beside more than one other a smaller step is tried where nothing else is enough: it costs most,
-    to try as to use. Alone it is known from an engine's ladder.
-    """
-    field, found = search.field, dict[str, Sequence[Cure]]()
-    matter: Mapping[str, Sequence[Lever]] = dict.fromkeys(rows, field.levers)
-    for size in range(1, WHOLE + 1):
-        left = [row for row in rows if row not in found]
-        if size == 2 and len(field.levers) >= MANY and left:
-            matter = yield from that_matter(search, left)
-        sets = {row: _sets(field, matter[row], size) for row in left}
-        found |= yield from _cured(search, sets, finer=False)
-        others = {row: of for row, of in sets.items() if size <= PAIR or row not in found}
-        with_step = yield from _cured(search, others, finer=True)
-        found |= {row: [*found.get(row, ()), *cures] for row, cures in with_step.items()}
-    return found
-
-
-def _cured(
-    search: Setting, sets: Mapping[str, Sequence[Turned]], *, finer: bool
-) -> Asking[dict[str, Sequence[Cure]]]:
-    """For each row the smallest of its sets, with or without the step, that cure for good."""
-    field = search.field
-    among = {
-        row: [turned for turned in of if (STEP in turned) == finer] for row, of in sets.items()
-    }
-    yield {field.candidate(turned) for of in among.values() for turned in of}
-    within = {
-        row: [turned for turned in of if search.error(field.candidate(turned), row) <= 1.0]
-        for row, of in among.items()
-    }
-    yield {c for of in within.values() for turned in of for c in _asked(field, turned)}
-    lasting = {row: list(_lasting(search, row, of)) for row, of in within.items()}
-    return {row: _fewest(cures) for row, cures in lasting.items() if cures}
-
-
-def _fewest(cures: Sequence[Cure]) -> list[Cure]:
-    """The cures with the fewest levers: sets beyond the largest are not all of one size."""
-    least = min(len(cure.turned) for cure in cures)
-    return [cure for cure in cures if len(cure.turned) == least]
-
-
-def _sets(field: Field, matter: Sequence[Lever], size: int) -> list[Turned]:
-    """Every set of that size; beyond the largest, all levers that matter, and all there are.
-
-    At last whole recipes, which a set that only goes on the way to the tuned one never meets.
-    """
-    if size == WHOLE:
-        return [turned for whole in field.wholes for turned in ((whole,), (whole, STEP))]
-    if size <= LARGEST:
-        sets = combinations(matter, size)
-        return [turned for turned in sets if size <= LARGEST_FINER or STEP not in turned]
-    knobs = [lever for lever in matter if lever is not STEP]
-    rest = [] if field.rest is None else [field.rest]
-    every = [tuple(knobs), (*knobs, STEP), (*field.levers, *rest)]
-    return [turned for turned in every if len(turned) > LARGEST_FINER]
-
-
-def _rungs(field: Field, turned: Turned) -> list[Candidate]:
-    """The steps by which it is seen whether a set cures for good, coarse to fine.
-
-    Of one with the step all between; of any other its own and the next finer one: at one step
-    alone an error beside an event may be small by luck.
-    """
-    candidate = field.candidate(turned)
-    if STEP in turned:
-        return [candidate.at(step) for step in field.ladder(turned)[1:]]
-    return [candidate, candidate.at(candidate.step / 2)]
-
-
-def _asked(field: Field, turned: Turned) -> list[Candidate]:
-    return [*_rungs(field, turned), *field.along(turned)[1].values()]
-
-
-def _lasting(search: Setting, row: str, sets: Iterable[Turned]) -> Iterator[Cure]:
-    """The cures that keep the bound from a step on, each at the largest such step."""
-    for turned in sets:
-        rungs, usable = _rungs(search.field, turned), None
-        for candidate in reversed(rungs):
-            if not search.error(candidate, row) <= 1.0:
-                break
-            usable = candidate
-        if usable is not None and (STEP in turned or usable == rungs[0]):
-            number, along = search.field.along(turned)
-            told = law(number, {x: search.error(c, row) for x, c in along.items()})
-            yield Cure(turned, usable, search.error(usable, row), told)

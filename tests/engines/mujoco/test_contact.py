@@ -4,10 +4,8 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import cast
 
 import mujoco
 import numpy as np
@@ -24,14 +22,14 @@ from given.adapters.engine_scenes import (  # fmt: skip
     machine,
     touching,
 )
-from given.adapters.planning import SHIPPED, TUNED, every, moved, planned
+from given.adapters.planning import SHIPPED, TUNED, begun, every, moved, planned
 from scipy.integrate import solve_ivp
 
 from textmech.cases.scene import Anchor, Push, Signal
 from textmech.cases.scene.shape import rigid
 from textmech.cases.trajectory import ANGLE, VX, VY, Array
+from textmech.engines.mujoco.adapter.compilation import placed
 from textmech.engines.mujoco.callbacks import settle
-from textmech.engines.mujoco.callbacks.settle import Floor
 from textmech.engines.mujoco.model.bounce import damping_ratio, springy
 from textmech.engines.mujoco.model.limit import BEAT as OF_STOPS
 from textmech.reference.solve import solve
@@ -78,29 +76,38 @@ def test_damper_throws_back(bounce: float) -> None:
     assert -solution.y[1, -1] == pytest.approx(bounce, abs=1e-6)
 
 
-@dataclass
-class _Held:
-    """A start whose slip grows by −(creep − held)/h, up to a rounding of it."""
-
-    rounding: float
-    held: float = -7.5e-5
-    h: float = 4e-4
-
-    def __post_init__(self) -> None:
-        self.creeps, self.depths, self.slips = np.array([self.held]), np.ones(1), np.zeros(1)
-        self.model = SimpleNamespace(opt=SimpleNamespace(timestep=self.h))
-
-    def acceleration(self, i: int) -> tuple[float, float]:
-        return (self.held - float(self.creeps[i])) / self.h + self.rounding, 0.0
-
-
 @pytest.mark.mutant("a start's creep let go where rounding alone is left of its slip")
-@pytest.mark.parametrize("rounding", [0.0, 1e-18, -1e-18, 1e-17, -1e-17])
-def test_what_friction_holds_is_held_whatever_rounding_says(rounding: float) -> None:
-    """Ten steps of what is left, 1e-18 m/s², are less than the rounding of the creep."""
-    held = _Held(rounding)
-    settle._creep(cast("Floor", held), 0)
-    assert held.creeps[0] == pytest.approx(held.held, rel=1e-12)
+def test_what_friction_holds_is_held_whatever_rounding_says(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """At any step: at 10 µs rounding leaves 1e-6 m/s²."""
+    scene, start = begun("leaning_ladder.above")
+    plan = planned(TUNED["mujoco"], scene, start)
+
+    def creep(step: float) -> float:
+        return placed(scene, start, step, plan, settles=True)[2]["foot"][1]
+
+    assert creep(1e-5) == pytest.approx(creep(1e-3) / 100, rel=1e-4)
+    monkeypatch.setattr(settle, "HELD", 0.0)
+    assert creep(1e-5) == 0.0
+
+
+def settled(name: str, step: float) -> Array:
+    """Depths and creeps by a plan whose numbers are held at 4 ms."""
+    scene, start = begun(name)
+    plan = planned(TUNED["mujoco"], scene, start).held_at(4e-3)
+    return np.array([*placed(scene, start, step, plan, settles=True)[2].values()])
+
+
+@pytest.mark.parametrize("name", ["stacked_blocks.thrown", "rimless_wheel", "tilting_disk.circle"])
+def test_numbers_that_are_held_settle_alike_at_any_step(name: str) -> None:
+    np.testing.assert_allclose(settled(name, 2.5e-4), settled(name, 4e-3), rtol=1e-2, atol=1e-6)
+
+
+@pytest.mark.mutant("a start whose first guess does not carry on numbers of another step")
+def test_a_first_guess_that_does_not_carry_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settle, "DEEPEST", 0.0)
+    assert not settled("rimless_wheel", 2.5e-4).any()
 
 
 @pytest.mark.slow
@@ -163,7 +170,7 @@ def test_it_keeps_as_much_as_is_said(e: float, beat: float) -> None:
     assert 0.7 * said < off < 1.5 * said
 
 
-# What touches two planes and slides on both from rest: a settled start that sweeps do not find.
+# What touches two planes and slides on both from rest: a start that friction cannot hold.
 
 
 LADDER = """\
@@ -218,10 +225,10 @@ def test_it_starts_where_its_planes_carry_it(
 
 
 @pytest.mark.slow
-@pytest.mark.mutant("a start of sweeps that run round, between what sticks and what slides")
+@pytest.mark.mutant("a start that has not settled, between what sticks and what slides")
 @pytest.mark.parametrize("text", [LADDER, DISK], ids=["ladder", "disk"])
 def test_a_start_that_has_not_settled_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
-    monkeypatch.setattr(settle, "_FEW", 0)
+    monkeypatch.setattr(settle, "HELD", math.inf)
     assert off(tmp_path, text)[1] > 1.0

@@ -37,7 +37,7 @@ from textmech.engines.pymunk.callbacks import friction
 from textmech.engines.pymunk.model.solver_contraction import halving
 from textmech.engines.pymunk.model.world import World
 from textmech.engines.pymunk.read.health import _left
-from textmech.engines.pymunk.settings.recipe import Recipe
+from textmech.engines.pymunk.settings.options import Numbers
 from textmech.engines.pymunk.stepping import scene as builder
 from textmech.engines.pymunk.stepping.run import placed
 from textmech.engines.pymunk.stepping.scene import build
@@ -51,9 +51,9 @@ STEP = 1e-4
 
 def without(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     """The tuned recipe without one of its numbers."""
-    whole = Recipe.__call__
+    whole = Numbers.__call__
     monkeypatch.setattr(
-        Recipe, "__call__", lambda self, h: [c for c in whole(self, h) if c.name != name]
+        Numbers, "__call__", lambda self, h: [c for c in whole(self, h) if c.name != name]
     )
 
 
@@ -81,12 +81,12 @@ def test_a_ladder_uses_up_a_smaller_seed(
     monkeypatch: pytest.MonkeyPatch, seed: float, often: int
 ) -> None:
     """Then its contacts open for a step on the way, and its event happens three times."""
-    whole = Recipe.__call__
+    whole = Numbers.__call__
 
-    def seeded(self: Recipe, h: float) -> list[Choice]:
+    def seeded(self: Numbers, h: float) -> list[Choice]:
         return [replace(c, value=seed) if c.name == "start.seed" else c for c in whole(self, h)]
 
-    monkeypatch.setattr(Recipe, "__call__", seeded)
+    monkeypatch.setattr(Numbers, "__call__", seeded)
     case, (scene, start) = SHIPPED["sliding_ladder"], begun("sliding_ladder")
     times, wanted = np.linspace(0.0, 0.6, 7), ("top.normal",)
     run = moved(ENGINE, scene, start, times, STEP, reactions=wanted, record=True)
@@ -116,9 +116,9 @@ def test_a_slide_is_worse_where_a_user_would_put_the_groove(
 
 
 def test_a_chain_with_the_default_iterations_gains_energy(monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = Recipe.__call__
+    whole = Numbers.__call__
     monkeypatch.setattr(
-        Recipe,
+        Numbers,
         "__call__",
         lambda self, h: [replace(c, value=10) if "iter" in c.name else c for c in whole(self, h)],
     )

@@ -211,9 +211,10 @@ AGAIN: dict[str, tuple[str, dict[str, Any], tuple[float, float, float], float, i
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", AGAIN)
-def test_a_slip_is_followed_as_often_as_it_comes_back(name: str) -> None:
+def test_a_slip_is_followed_as_often_as_it_comes_back(name: str, faster: float = 1.0) -> None:
     """A sine just above friction: each half of its period has the slip of the one before."""
     scene, parameters, (most, omega, phase), end, samples = AGAIN[name]
+    omega *= faster
     case = pushed(scene, sine(most, omega, phase), **parameters)
     found = changes(case, np.linspace(0.0, end, samples))
     first = np.ceil(phase / np.pi - 0.5)  # peak; an even one pushes forward
@@ -276,7 +277,8 @@ def test_what_is_not_listened_to_is_seen(mistake: str, monkeypatch: Patch) -> No
         test_a_slip_is_followed_as_often_as_it_comes_back(name)
     monkeypatch.setattr(*last)
     with pytest.raises(ends, match=words or None):
-        test_a_slip_is_followed_as_often_as_it_comes_back(name)
+        for k in range(24):  # whether rounding speaks in the first is the processor's
+            test_a_slip_is_followed_as_often_as_it_comes_back(name, 1 + 7e-4 * k)
 
 
 @pytest.mark.parametrize("samples", [3, 31])

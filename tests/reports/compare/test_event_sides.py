@@ -20,6 +20,7 @@ from textmech.reference.certificate import errors
 from textmech.reference.mechanism.modes import mechanism, mode_selection
 from textmech.reference.motion.follow import _Walk
 from textmech.reference.solve import Solution, solve
+from textmech.reports.compare.events import states
 from textmech.reports.compare.events import times as event_times
 from textmech.reports.compare.events import times as reading
 from textmech.reports.compare.events.states import mistaken
@@ -131,10 +132,10 @@ def misread(case: Case, module: Any = event_times, seeds: int = 150) -> list[int
 
 PLANTED = {
     "what rises to zero by its name falls to it": (
-        "comes = float(values[last]) if ended", "comes = abs(float(values[last])) if ended"
+        "comes = float(values[last]) if named", "comes = abs(float(values[last])) if named"
     ),
-    "a side that is asked of the first row": ("values[last]) if ended", "values[0]) if ended"),
-    "a hop below what counts has no side": ("if np.any(clear) else np.argmax(np.abs(values))", ""),
+    "a side that is asked of the first row": ("values[last]) if named", "values[0]) if named"),
+    "a hop below what counts has no side": ("if len(clear) else np.argmax(np.abs(values))", ""),
 }  # fmt: skip
 
 
@@ -151,7 +152,7 @@ def test_a_slip_comes_to_zero_from_the_side_where_it_was() -> None:
 def test_a_side_that_is_not_asked_is_seen(planted: str) -> None:
     was, now = PLANTED[planted]
     if not now:
-        now = "if np.any(clear) else 0"
+        now = "if len(clear) else 0"
     assert misread(rail(1.0), otherwise(event_times, was, now), 40) != []
 
 
@@ -242,38 +243,6 @@ def test_the_force_of_a_one_sided_spring_has_its_side(
     quarter = math.pi / math.sqrt(10.0) / 2
     assert happened(case, "s.force", rule) == pytest.approx([quarter], abs=1e-9)
     assert happened(case, "s.force", other) == []
-
-
-TURNS = """\
-scene:
-  gravity: none
-  points: {O: [0, 0]}
-  bodies: {b: {rigid: {mass: 1, inertia: 2}}}
-  joints: {p: {pin: [ground.O, b.center], dry_friction: {kinetic: 0.5}}}
-initial: {p: {angle: 0, omega: -1}}
-events: {it: {p.slip: rises to zero}}
-allow: {b.angle: 1.0e-3}
-"""
-GLIDES = """\
-scene:
-  bodies: {b: {particle: {mass: 1}}}
-  contacts: {c: {between: [b, ground.floor], friction: 0.1}}
-initial: {b: {x: 0, y: 0, vx: -1, vy: 0}}
-events: {it: {c.slip: rises to zero}}
-allow: {b.x: 1.0e-3}
-"""
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("text", "name", "stops"),
-    [(TURNS, "p.slip", 4.0), (GLIDES, "c.slip", 1 / (0.1 * 9.80665))],
-)
-def test_pins_and_contacts_have_two_sides_too(text: str, name: str, stops: float) -> None:
-    case = parsed(text, tail="duration: 11.0\nsamples: 11\n")
-    assert observe(case.scene, solve(case).trajectory, name)[0] == -1.0
-    assert happened(case, name, RISES) == pytest.approx([stops], abs=1e-9)
-    assert happened(case, name, FALLS) == []
 
 
 # Rows at the last instant.
@@ -427,7 +396,8 @@ def test_hops_are_counted_however_low(monkeypatch: pytest.MonkeyPatch) -> None:
     case = dropped(within, "lands.count", e=e, x=1e3)
     found = solve(case)
     assert found.holds
-    assert mistaken(case, found.trajectory) == []
+    (wrong,) = mistaken(case, found.trajectory)
+    assert "happens so softly" in wrong.what
     assert counted(case, found, "lands") == n + 1
     monkeypatch.setattr(reading, "_names", lambda *_: set())
     assert counted(case, found, "lands") < n
@@ -544,8 +514,8 @@ def test_blows_within_rounding_are_not_counted(monkeypatch: pytest.MonkeyPatch) 
         if known:
             assert [counted(case, found, name) for name in ("pp", "qq")] == meetings(e)
         else:
-            assert "happens so softly at 0.878" in wrong[0].what
-    monkeypatch.setattr(reading, "SOFT", 0.0)
+            assert "happens so softly at 0.877" in wrong[0].what
+    monkeypatch.setattr(states, "below_resolution", lambda *_: None)
     assert mistaken(case, found.trajectory) == []
 
 
@@ -605,22 +575,26 @@ def test_a_platform_that_hardly_lets_go(parts: float, friction: float, periods: 
         assert times == pytest.approx(each, abs=1e-8)  # rounding, where its height hardly falls
 
 
+THE_OTHER_WAY = -1e-16  # ROUNDS of a gap that is rounded down, whatever the processor
+
+
 @pytest.mark.slow
 @pytest.mark.mutant("a landing by rounding, just after it has let go, is one")
 def test_rounding_lands_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """By itself: that a gap of rounding is not looked at hides it in this scene."""
     case = shaken(1.0001, 0.3, 0.6)
     assert solve(case).holds
-    monkeypatch.setattr(mechanism, "ROUNDS", 0.0)
+    monkeypatch.setattr(mechanism, "ROUNDS", THE_OTHER_WAY)
     assert solve(case).holds
     monkeypatch.setattr(_Walk, "_trembles", lambda *_: False)
-    assert not solve(case).holds
+    with pytest.raises(CaseError, match="thousands of times"):
+        solve(case)
 
 
 @pytest.mark.slow
 @pytest.mark.mutant("where nothing presses, two ways to slide are two motions")
 def test_what_does_not_press_does_not_rub(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(mechanism, "ROUNDS", 0.0)  # else nothing is pressed by rounding there
+    monkeypatch.setattr(mechanism, "ROUNDS", THE_OTHER_WAY)
     monkeypatch.setattr(mode_selection, "_exert_alike", lambda *_: False)
     with pytest.raises(CaseError, match="held by the others already"):
         solve(shaken(1.0001, 0.3, 0.6))

@@ -274,8 +274,7 @@ def test_what_happens_without_end_has_no_count(e: float) -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("a pile of events that is not told")
 def test_a_pile_that_is_not_told_would_be_seen() -> None:
-    case = replace(bouncing("lands.count"), duration=1.6)
-    case = replace(case, events={"lands": case.events["lands"]})
+    case = replace(bouncing("tops.count"), duration=1.6)
     motion = replace(solve(case).trajectory, endless=())
     assert mistaken(case, motion) == []
 
@@ -366,7 +365,7 @@ def test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(
 
 @pytest.mark.mutant("what touches the value of an event is none, without a word")
 def test_a_graze_that_is_not_said_is_certified(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reading, "touches", lambda *_: iter(()))
+    monkeypatch.setattr(reading, "_touches", lambda *_: iter(()))
     with pytest.raises(AssertionError):
         test_a_graze_is_an_event_or_none_or_is_asked_to_be_said_otherwise(1e-10, 10)
 

@@ -25,7 +25,7 @@ def readings(store: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[list[Any], s
     known: set[Any] = set()
     reading = timing.reading
 
-    def counted(scene: Any, record: Any, event: Any, happened: Any, step: float) -> float:
+    def counted(scene: Any, record: Any, event: Any, happened: Any, step: float) -> Any:
         asked.append((event.quantity, event.rule, step))
         return reading(scene, record, event, happened, step)
 

@@ -38,7 +38,7 @@ from textmech.cases.trajectory import Array
 from textmech.engines.engine import Plan, Start
 from textmech.engines.mujoco import MuJoCo
 from textmech.engines.mujoco.adapter import compilation, run
-from textmech.engines.mujoco.callbacks import settle_in_space as settle
+from textmech.engines.mujoco.callbacks import settle
 from textmech.engines.mujoco.callbacks.signal import Control, installed
 from textmech.engines.mujoco.model.tree import called
 
@@ -213,7 +213,7 @@ def wandering(radius: float, body: int, axle: Array) -> Control:
         speed, drift = np.zeros(6), np.zeros((3, model.nv))
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, speed, 0)
         omega, axes = speed[:3], data.xmat[body].reshape(3, 3)
-        arm, rate = settle._arm(radius, axes @ axle, omega)
+        arm, rate = settle.lowest_arm(radius, UP, axes @ axle, omega)
         mujoco.mj_jacDot(model, data, drift, None, data.xpos[body] + arm, body)
         missing = drift @ data.qvel + np.cross(omega, rate - np.cross(omega, arm))
         first = data.contact.efc_address[0]
@@ -234,7 +234,7 @@ def errors(name: str, step: float, *, told: bool, monkeypatch: pytest.MonkeyPatc
         control = wandering(disk.radius, model.body(called(disk.name)).id, np.array(disk.axle))  # type: ignore[attr-defined]
         for room in (settle, run):
             monkeypatch.setattr(room, "signals", lambda *_: installed(control))
-    settle.settle_in_space(case.scene, model, data, start)
+    settle.settle(case.scene, model, data, start)
     times = case.times[: ENDS[name]]
     found = run.simulate(
         case.scene, model, data, start, times, (), realised="native", every=False

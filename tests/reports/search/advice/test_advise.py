@@ -1,12 +1,12 @@
 """Advice for real cases: recipes that are known by hand, and what is said meanwhile."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from given import scenes
+from given.command.planted_runs import recipe_search
 from given.otherwise import otherwise
 
 from textmech.cases.case import Case
@@ -19,14 +19,11 @@ from textmech.reports.runs.request import Request
 from textmech.reports.runs.selection import choose_engines
 from textmech.reports.runs.tasks import Pair
 from textmech.reports.search.advice import advise
-from textmech.reports.search.advice import advise as cuts
-from textmech.reports.search.advice import criterion as bars
+from textmech.reports.search.advice import recipe as searching
 from textmech.reports.search.advice.advice_rows import FEWEST, Advised, Requirement, rows
 from textmech.reports.search.advice.advise import Listener, advised
-from textmech.reports.search.advice.criterion import Bar
 from textmech.reports.search.causes.candidate import Candidate
 from textmech.reports.search.causes.errors import Run, errors
-from textmech.reports.search.causes.parallel_search import Known
 from textmech.reports.tables import write
 from textmech.reports.tables.row import Advice
 
@@ -158,7 +155,7 @@ def test_each_joint_is_once_the_last() -> None:
         def orders(name: str) -> list[str]:
             case = scenes.EVERY[name]
             pair = Pair(case, engine, store, key.solution(case))
-            return ["".join(other.case.scene.joints) for other in cuts._others(pair)]
+            return ["".join(other.case.scene.joints) for other in advise._cut_elsewhere(pair)]
 
         assert orders("four_bar") == ["BCDA", "CDAB", "DABC"]
         assert orders("double_pendulum") == []
@@ -172,8 +169,8 @@ def test_what_keeps_the_bar_here_may_not_elsewhere() -> None:
     with temporary_store() as store:
         pair = Pair(case, engine, store, Keys.now(store).solution(case))
         here, *others = [
-            Bar({candidate: errors(Run(each, candidate))}, 1.0).worst(candidate)[0]
-            for each in [pair, *cuts._others(pair)]
+            max(whole for whole, _ in errors(Run(each, candidate)).values())
+            for each in [pair, *advise._cut_elsewhere(pair)]
         ]
     assert here < 0.1
     assert 1 < max(others) < 3
@@ -183,17 +180,14 @@ def test_what_keeps_the_bar_here_may_not_elsewhere() -> None:
 def test_it_is_not_taken_then() -> None:
     candidate = Candidate.of({}, 1e-3)
 
-    def holds(module: object, elsewhere: float) -> bool:
-        bar = module.Bar({candidate: {"x": (0.1, 0.1)}}, 2.0)  # type: ignore[attr-defined]
-        return replace(bar, elsewhere={candidate: elsewhere}).holds(candidate)
+    def passes(module: Any, elsewhere: float) -> bool:
+        search = recipe_search({candidate: {"x": 0.1}}, 2.0, module=module)
+        search.elsewhere[candidate] = elsewhere
+        return search.passes(candidate)
 
-    assert holds(bars, 0.9)
-    assert not holds(bars, 1.1)
-    assert not holds(bars, float("nan"))
-    blind = otherwise(
-        bars, "return here and self.elsewhere.get(candidate, 0.0) <= 1.0", "return here"
-    )
-    assert holds(blind, 1.1)
+    assert [passes(searching, x) for x in (0.9, 1.1, float("nan"))] == [True, False, False]
+    was = "return here and self.elsewhere.get(candidate, 0.0) <= 1.0"
+    assert passes(otherwise(searching, was, "return here"), 1.1)
 
 
 def test_what_changes_nothing_is_left_out_with_it() -> None:
@@ -201,10 +195,10 @@ def test_what_changes_nothing_is_left_out_with_it() -> None:
     soft, alike, other = (Candidate.of({"tolerance": x}, 1e-3) for x in (1e-8, 1e-9, 1e-10))
     finer = Candidate.of({"tolerance": 1e-9}, 5e-4)
     worst = {soft: 0.1, alike: 0.10001, other: 0.2, finer: 0.1}
-    bar = Bar(Known({candidate: {"x": (x, x)} for candidate, x in worst.items()}), 2.0)
-    bar.leave_out({soft: 1.5})
-    assert [bar.holds(c) for c in (soft, alike, other, finer)] == [False, False, True, True]
-    assert bar.elsewhere == {soft: 1.5, alike: 1.5}
+    search = recipe_search({candidate: {"x": x} for candidate, x in worst.items()}, 2.0)
+    search.leave_out({soft: 1.5})
+    assert [search.passes(c) for c in (soft, alike, other, finer)] == [False, False, True, True]
+    assert search.elsewhere == {soft: 1.5, alike: 1.5}
 
 
 # What is said while advice is searched for: shipped at once, and on Ctrl-C the nearest so far.
@@ -275,7 +269,7 @@ def test_a_mistaken_file_is_refused_with_its_place(tmp_path: Path) -> None:
         with pytest.raises(CaseError) as caught:
             refusals(case)
         assert [mistake.where for mistake in caught.value.mistakes] == ["allow.ball.x"]
-    blamed = otherwise(advise, "if key not in own and wrong[key]", "if False")
+    blamed = otherwise(advise, "if wrong[other.key]", "if False")
     whys = refusals(case, blamed)
     assert len(whys) == 2
     assert all(why.startswith("there is no reference: ") for why in whys)

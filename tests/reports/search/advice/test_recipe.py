@@ -5,20 +5,17 @@ from math import inf
 from typing import Any
 
 import pytest
+from given.command.planted_runs import Error, answered, recipe_search
 from given.otherwise import otherwise
 
 from textmech.engines.knobs import Knob, Value
 from textmech.reports.compare.trial.trial import Trial
 from textmech.reports.search.advice import advise
-from textmech.reports.search.advice import criterion as bar
 from textmech.reports.search.advice import recipe as searching
-from textmech.reports.search.advice.candidates import Menu, fitting
-from textmech.reports.search.advice.criterion import Bar
-from textmech.reports.search.advice.recipe import Kitchen, Recipe, Recipes, best, front, recipes
+from textmech.reports.search.advice.candidates import Candidates, fitting
+from textmech.reports.search.advice.recipe import Recipe, Recipes, Search, best, front, recipes
 from textmech.reports.search.causes.candidate import Candidate
-from textmech.reports.search.causes.parallel_search import Known
 
-Error = Callable[[Mapping[str, Any], float], float]
 STEPS = [8e-3, 4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4]  # s
 OWN = 2e-3
 
@@ -32,38 +29,68 @@ WHOLE = Knob("whole", (Value("whole", {"a": {"b": 1, "c": 1}, "d": 1}),), kind="
 TUNED = {"one": 1, "two": 2, "three": 3, "inert": 1}
 
 
-def cooked(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[Recipes | None, Kitchen]:
-    menu = Menu(knobs or (ONE, TWO), STEPS, OWN, TUNED)
-    kitchen = Kitchen(menu, Bar(Known(), margin), lambda c: 1 / c.step)
-    asking = recipes(kitchen)
-    while True:
-        try:
-            wanted = next(asking)
-        except StopIteration as done:
-            return done.value, kitchen
-        for candidate in wanted:
-            found = error(candidate.options, candidate.step)
-            kitchen.bar.known[candidate] = {"x": (found, found)} if found < inf else {}
+def searched(error: Error, *knobs: Knob) -> tuple[Recipes | None, Search]:
+    candidates = Candidates(knobs or (ONE, TWO), STEPS, OWN, TUNED)
+    search = recipe_search({}, 2.0, candidates=candidates)
+    return answered(lambda: recipes(search), error), search
 
 
-def of(error: Error, *knobs: Knob, margin: float = 2.0) -> tuple[dict[str, Any], float] | None:
-    found, _ = cooked(error, *knobs, margin=margin)
-    return None if found is None else (dict(found.fewest.choice.options), found.fewest.step)
+def of(error: Error, *knobs: Knob, which: str = "fewest") -> tuple[dict[str, Any], float] | None:
+    found, _ = searched(error, *knobs)
+    recipe: Recipe | None = getattr(found, which, None)
+    return recipe and (dict(recipe.choice.options), recipe.candidate.step)
 
 
-def test_nothing_is_changed_where_nothing_has_to_be() -> None:
-    assert of(lambda o, h: 100 * h) == ({}, 4e-3)
+def off_by_sign(sign: int) -> Error:
+    """`one` takes from the error, or adds to it."""
+    return lambda o, h: abs(3.0 + sign * 2.8 * o.get("one", 0)) + (0 if "two" in o else 100)
 
 
-def test_a_step_below_its_own_counts_as_an_option() -> None:
-    """Either is one: the option costs less here, and there the step does."""
-    assert of(lambda o, h: 0.1 if "one" in o else 1000 * h) == ({"one": 1}, 8e-3)
-    assert of(lambda o, h: inf if o else 1000 * h) == ({}, 5e-4)
+START, MANY = knob("start", 1, kind="protocol"), knob("many", 10.0, 100.0, 1e4, 1e6)
+MUCH = Knob("much", (Value("much", {"many": 1e6, "d": 1}),), kind="bundle")
+FOUND: Mapping[str, tuple[Error, tuple[Knob, ...], tuple[dict[str, Any], float] | None]] = {
+    "nothing, where nothing has to be changed": (lambda o, h: 100 * h, (), ({}, 4e-3)),
+    "an option, which costs less than a step below its own": (
+        lambda o, h: 0.1 if "one" in o else 1000 * h, (), ({"one": 1}, 8e-3)
+    ),
+    "a step below its own, which counts as an option": (
+        lambda o, h: inf if o else 1000 * h, (), ({}, 5e-4)
+    ),
+    "two options with the values that do it": (
+        lambda o, h: 0.1 if (o.get("one"), o.get("two")) == (1, 2) else 9.0,
+        (), ({"one": 1, "two": 2}, 8e-3),
+    ),
+    "what holds at the next finer step too": (
+        lambda o, h: {8e-3: 0.1, 4e-3: 9.0}.get(h, 0.1), (), ({}, 2e-3)
+    ),
+    "none that holds at one step alone": (lambda o, h: 0.1 if h == OWN else 9.0, (), None),
+    "a knob of the right sign": (off_by_sign(-1), (), ({"one": 1, "two": 1}, 8e-3)),
+    "none of the wrong sign": (off_by_sign(+1), (), None),
+    "of the same cost the engine's own options": (
+        lambda o, h: 0.1 / len(o) if o else 9.0, (START, ONE), ({"one": 1}, 8e-3)
+    ),
+    "at last a whole recipe without what it does not need": (
+        lambda o, h: 0.1 if o.get("a", {}).get("b") and o.get("d") else 9.0,
+        (ONE, WHOLE), ({"a": {"b": 1}, "d": 1}, 8e-3),
+    ),
+    "at last the tuned one without what it does not need": (
+        lambda o, h: 0.1 if o.get("three") and o.get("two") == 2 else 9.0,
+        (ONE, knob("two", 1)), ({"two": 2, "three": 3}, 8e-3),
+    ),
+    "the mildest number that does": (
+        lambda o, h: 10.0 / o["many"] if "many" in o else 9.0, (MANY,), ({"many": 100.0}, 8e-3)
+    ),
+    "the mildest number of a whole recipe": (
+        lambda o, h: 10.0 / o["many"] if {"many", "d"} <= set(o) else 9.0,
+        (MANY, MUCH), ({"many": 100.0, "d": 1}, 8e-3),
+    ),
+}  # fmt: skip
 
 
-def test_two_options_are_found_with_the_values_that_do_it() -> None:
-    found = of(lambda o, h: 0.1 if (o.get("one"), o.get("two")) == (1, 2) else 9.0)
-    assert found == ({"one": 1, "two": 2}, 8e-3)
+@pytest.mark.parametrize("what", FOUND)
+def test_a_recipe_is(what: str) -> None:
+    error, knobs, recipe = FOUND[what]
+    assert of(error, *knobs) == recipe
 
 
 def test_what_only_rounding_makes_better_is_not_advised() -> None:
@@ -74,68 +101,33 @@ def test_what_only_rounding_makes_better_is_not_advised() -> None:
             return 0.4 * (1 + last * o["two"] * 1e-15) if "two" in o else 9.0
 
         assert of(error, TWO) == ({"two": 1}, 8e-3)
-        nothing, kitchen = cooked(lambda o, h, error=error: 10 * error(o, h), TWO)
+        nothing, search = searched(lambda o, h, error=error: 10 * error(o, h), TWO)
         assert nothing is None
-        assert best(kitchen)
-
-
-def test_the_margin_is_kept_at_the_step_and_at_the_next_finer_one() -> None:
-    assert of(lambda o, h: 200 * h, margin=1.0) == ({}, 4e-3)
-    assert of(lambda o, h: 200 * h, margin=4.0) == ({}, 1e-3)
-    luck = {8e-3: 0.1, 4e-3: 9.0}
-    assert of(lambda o, h: luck.get(h, 0.1)) == ({}, 2e-3)
-    assert of(lambda o, h: 0.1 if h == OWN else 9.0) is None
-
-
-def test_a_knob_of_the_wrong_sign_is_not_advised() -> None:
-    """Planted: `one` takes from the error, or adds to it."""
-
-    def error(sign: int) -> Error:
-        return lambda o, h: abs(3.0 + sign * 2.8 * o.get("one", 0)) + (0 if "two" in o else 100)
-
-    assert of(error(-1)) == ({"one": 1, "two": 1}, 8e-3)
-    assert of(error(+1)) is None
-
-
-def test_of_the_same_cost_the_engines_own_options_come_first() -> None:
-    start = knob("start", 1, kind="protocol")
-    found = of(lambda o, h: 0.1 / len(o) if o else 9.0, start, ONE)
-    assert found == ({"one": 1}, 8e-3)
-
-
-def test_a_whole_recipe_is_the_last_resort_and_loses_what_it_does_not_need() -> None:
-    asked = lambda o, h: 0.1 if o.get("a", {}).get("b") and o.get("d") else 9.0  # noqa: E731
-    assert of(asked, ONE, WHOLE) == ({"a": {"b": 1}, "d": 1}, 8e-3)
-    tuned = lambda o, h: 0.1 if o.get("three") and o.get("two") == 2 else 9.0  # noqa: E731
-    assert of(tuned, ONE, knob("two", 1)) == ({"two": 2, "three": 3}, 8e-3)
+        assert best(search)
 
 
 def test_where_nothing_keeps_the_bar_the_least_worst_is_told() -> None:
-    found, kitchen = cooked(lambda o, h: 5.0 if o.get("two") == 2 else 9.0)
+    found, search = searched(lambda o, h: 5.0 if o.get("two") == 2 else 9.0)
     assert found is None
-    told = best(kitchen)
+    told = best(search)
     assert told is not None
     assert (told[0].options.get("two"), told[1], told[2]) == (2, 5.0, "x")
-    _, lost = cooked(lambda o, h: inf)
+    _, lost = searched(lambda o, h: inf)
     assert best(lost) is None
 
 
 def test_a_front_has_no_point_that_costs_more_and_is_hardly_better() -> None:
-    _, kitchen = cooked(lambda o, h: 9.0)
-    kitchen.bar.known.clear()
-    for h, x in [(8e-3, 9.0), (4e-3, 8.9), (2e-3, 3.0), (1e-3, 4.0), (5e-4, 1.0), (2.5e-4, inf)]:
-        kitchen.bar.known[Candidate.of({}, h)] = {"x": (x, x)} if x < inf else {}
-    assert [(c.step, x) for c, x, _ in front(kitchen)] == [(8e-3, 9.0), (2e-3, 3.0), (5e-4, 1.0)]
+    errors = {8e-3: 9.0, 4e-3: 8.9, 2e-3: 3.0, 1e-3: 4.0, 5e-4: 1.0, 2.5e-4: inf}
+    known = {Candidate.of({}, h): {"x": x} if x < inf else {} for h, x in errors.items()}
+    points = front(recipe_search(known, 2.0))
+    assert [(c.step, x) for c, x, _ in points] == [(8e-3, 9.0), (2e-3, 3.0), (5e-4, 1.0)]
 
 
 def test_what_one_setting_tells_the_others_must_tell_too() -> None:
-    known: Known = {
-        Candidate.of({}, 1.0): {"x": (0.1, 0.1), "force": (0.1, 0.1)},
-        Candidate.of({"one": 1}, 1.0): {"x": (0.1, 0.1)},
-    }
-    bar = Bar(known, 1.0)
-    assert bar.holds(Candidate.of({}, 1.0))
-    assert bar.worst(Candidate.of({"one": 1}, 1.0)) == (inf, "force")
+    both, one = Candidate.of({}, 1.0), Candidate.of({"one": 1}, 1.0)
+    search = recipe_search({both: {"x": 0.1, "force": 0.1}, one: {"x": 0.1}}, 1.0)
+    assert search.passes(both)
+    assert search.worst(one) == (inf, "force")
 
 
 @pytest.mark.parametrize(
@@ -152,12 +144,6 @@ def test_steps_meet_every_sample(interval: float, steps: list[float]) -> None:
     assert fitting([1e-2, 5e-3], 2e-3, 2e-2) == [1e-2, 5e-3, 2e-3]
 
 
-def cheapest(error: Error, *knobs: Knob) -> tuple[dict[str, Any], float]:
-    found, _ = cooked(error, *knobs)
-    assert found
-    return dict(found.cheapest.choice.options), found.cheapest.step
-
-
 def test_the_cheapest_may_change_more() -> None:
     """One option needs 0.25 ms; both do with 8 ms, and cost a thirty-second."""
 
@@ -165,45 +151,20 @@ def test_the_cheapest_may_change_more() -> None:
         return 0.1 if {"one", "two"} <= set(o) else 1000 * h if "one" not in o else 9.0
 
     assert of(error) == ({}, 5e-4)
-    assert cheapest(error) == ({"one": 1, "two": 1}, 8e-3)
-
-
-def test_the_cheapest_is_confirmed_at_the_next_finer_step() -> None:
-    """With both it is within at 8 ms alone, by luck."""
-
-    def error(o: Mapping[str, Any], h: float) -> float:
-        both = {"one", "two"} <= set(o)
-        return 0.1 if both and h == 8e-3 else 9.0 if o else 1000 * h
-
-    assert cheapest(error) == ({}, 5e-4)
+    assert of(error, which="cheapest") == ({"one": 1, "two": 1}, 8e-3)
+    lucky = lambda o, h: error(o, h) if h == 8e-3 or not o else 9.0  # noqa: E731
+    assert of(lucky, which="cheapest") == ({}, 5e-4)  # not confirmed at the next finer step
 
 
 def test_what_costs_the_same_changes_less() -> None:
-    found, _ = cooked(lambda o, h: 0.1 / (1 + len(o)) if "one" in o else 9.0)
+    found, _ = searched(lambda o, h: 0.1 / (1 + len(o)) if "one" in o else 9.0)
     assert found
     assert found.cheapest is found.fewest
 
 
-MANY = knob("many", 10.0, 100.0, 1e4, 1e6)
-
-
-def test_a_number_is_the_mildest_that_does() -> None:
-    """Any from 100 on is within, the more the better: 100 is enough."""
-
-    def error(o: Mapping[str, Any], h: float) -> float:
-        return 10.0 / o["many"] if "many" in o else 9.0
-
-    assert of(error, MANY) == ({"many": 100.0}, 8e-3)
-    whole = Knob("whole", (Value("whole", {"many": 1e6, "d": 1}),), kind="bundle")
-    assert of(lambda o, h: error(o, h) if "d" in o else 9.0, MANY, whole) == (
-        {"many": 100.0, "d": 1},
-        8e-3,
-    )
-
-
-def smallest_error(kitchen: Kitchen, recipe: Recipe) -> tuple[float]:
+def smallest_error(search: Search, recipe: Recipe) -> tuple[float]:
     """The recipe of the smallest error in place of the cheapest."""
-    return (kitchen.bar.worst(recipe.candidate)[0],)
+    return (search.worst(recipe.candidate)[0],)
 
 
 @pytest.mark.mutant("the recipe of the smallest error in place of the cheapest")
@@ -216,7 +177,7 @@ def test_of_recipes_that_keep_the_bar_the_cheapest_is_taken(
         return 0.4 if "one" in o else (1e-3 if h <= 2e-3 else 9.0) if "two" in o else 9.0
 
     assert of(error) == ({"one": 1}, 8e-3)
-    monkeypatch.setattr(Kitchen, "rank", smallest_error)
+    monkeypatch.setattr(Search, "rank", smallest_error)
     assert of(error) == ({"two": 1}, 2e-3)
 
 
@@ -231,9 +192,9 @@ def test_what_is_left_of_a_recipe_holds_at_half_its_step_too(
         return 0.1 if o.get("a", {}).get("b") and luck(o, h) else 9.0
 
     assert of(error, ONE, WHOLE) == ({"a": {"b": 1}, "d": 1}, 8e-3)
-    was = "rungs = [less.candidate, less.choice.at(less.step / 2)]"
-    hasty = otherwise(searching, was, "rungs = [less.candidate]")
-    monkeypatch.setattr(searching, "_lean", hasty._lean)
+    was = "rungs = [recipe.candidate, recipe.choice.at(recipe.candidate.step / 2)]"
+    hasty = otherwise(searching, was, "rungs = [recipe.candidate]")
+    monkeypatch.setattr(Search, "holds", hasty.Search.holds)
     assert of(error, ONE, WHOLE) == ({"a": {"b": 1}}, 8e-3)
 
 
@@ -270,14 +231,14 @@ def test_what_is_zero_has_no_size(
     assert (scale(made, 1e-3, otherwise(advise, was, "size > 0")) == {}) is (size == 0.0)
 
 
-def holds(margin: float, factor: float, module: Any = bar) -> bool:
+def passes(margin: float, factor: float, module: Any = searching) -> bool:
     """Of an error of 0.4 of what the case allows."""
-    return module.Bar({PLAIN: {"x": (0.4, 0.4)}}, margin, {"x": factor}).holds(PLAIN)
+    return recipe_search({PLAIN: {"x": 0.4}}, margin, {"x": factor}, module=module).passes(PLAIN)
 
 
 @pytest.mark.mutant("the tolerance that is asked for, or the margin, left out")
 def test_the_margin_and_the_tolerance_that_is_asked_for_are_kept() -> None:
-    assert [holds(margin, 1.0) for margin in (1.0, 2.0, 3.0)] == [True, True, False]
-    assert [holds(1.0, factor) for factor in (0.1, 2.0, 10.0)] == [True, True, False]
-    assert holds(1.0, 10.0, otherwise(bar, " * self.scale.get(name, 1.0)", ""))
-    assert holds(3.0, 1.0, otherwise(bar, "<= 1 / self.margin", "<= 1"))
+    assert [passes(margin, 1.0) for margin in (1.0, 2.0, 3.0)] == [True, True, False]
+    assert [passes(1.0, factor) for factor in (0.1, 2.0, 10.0)] == [True, True, False]
+    assert passes(1.0, 10.0, otherwise(searching, " * self.scale.get(name, 1.0)", ""))
+    assert passes(3.0, 1.0, otherwise(searching, "<= 1 / self.margin", "<= 1"))

@@ -1,8 +1,8 @@
 """Causes of real rows: those that are known by hand, carried over, and told by the commands."""
 
 import json
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -120,90 +120,50 @@ def test_our_law_is_no_cause_where_a_smaller_step_agrees(
     assert Rows(given, [ladder(**told, setting=setting)]).ours(off) == [law]
 
 
-DAMPED = """\
-scene:
-  points: {O: [0, 0], W: [1.0, 0.5]}
-  bodies: {rod: {bar: {mass: 1.0, length: 1.0}}}
-  joints: {hinge: {pin: [ground.O, rod.start]}}
-  forces: {oil: {damper: [rod.end, ground.W], damping: 2.0}}
-initial: {rod: {angle: 0, omega: 0}}
-allow: {rod.angle: 4.0e-3}
-"""
-DAMPED_FOR = "duration: 1.0\nsamples: 11\nstep: {pymunk: 2.5e-3}\n"
-
-
-@pytest.mark.slow
-def test_a_damper_of_the_engines_own_that_a_smaller_step_cures(tmp_path: Path) -> None:
-    case = scenes.typed(tmp_path, DAMPED, tail=DAMPED_FOR)
-    found = explained.measure(Request([case], choose_engines(["pymunk"], []), jobs=2), search=True)
-    cures = {(c.setting, c.cure) for c in found.causes}
-    assert cures == {("shipped", "step"), ("tuned", "step")}
-
-
 # Causes that a committed table knows are not searched while what they stand on is the same.
 
 
-@dataclass(frozen=True)
-class Told:
-    """Causes and rows of a run, and whether anything was run for the causes."""
-
-    causes: Sequence[Cause]
-    rows: Sequence[Comparison]
-    searched: bool
-
-    @property
-    def read(self) -> dict[Key, list[Cause]]:
-        """As causes.csv holds them."""
-        known: dict[Key, list[Cause]] = {}
-        for one in self.causes:
-            before, allow = as_written(one.error), as_written(one.allowed)
-            known.setdefault(key_of(one), []).append(replace(one, error=before, allowed=allow))
-        return known
-
-    @property
-    def verdicts(self) -> dict[tuple[str, ...], str]:
-        """As tolerance.csv holds them."""
-        return {(r.case, r.engine, r.setting, r.realised, r.quantity): r.verdict for r in self.rows}
-
-
-def run(place: Path, known: Known | None = None) -> Told:
-    """One case in one setting, of which nothing is remembered."""
-    searched = False
-
-    def progress(what: str, *_: object) -> None:
-        nonlocal searched
-        searched |= what == "causes"
-
+def run(place: Path, known: Known | None = None) -> tuple[list[Cause], Known, bool]:
+    """The causes of one case in one setting, these as tables hold them, and whether any was run."""
+    phases = set[str]()
     report = explained.measure(
         Request(
             [scenes.EVERY["bar_pendulum"]],
             choose_engines(["mujoco.shipped"], []),
-            progress=progress,
+            progress=lambda what, *_: phases.add(what),
             store=Store(place),
             book=False,
         ),
         search=True,
         known=known,
     )
-    return Told(report.causes, report.comparisons, searched)
+    written: dict[Key, list[Cause]] = {}
+    for one in report.causes:
+        error, allowed = as_written(one.error), as_written(one.allowed)
+        written.setdefault(key_of(one), []).append(replace(one, error=error, allowed=allowed))
+    rows = report.comparisons
+    verdicts = {(*key_of(r)[:3], r.realised, r.quantity): r.verdict for r in rows}
+    return report.causes, Known(written, verdicts), "causes" in phases
 
 
 @pytest.fixture(scope="module")
-def first(tmp_path_factory: pytest.TempPathFactory) -> Told:
-    found = run(tmp_path_factory.mktemp("first"))
-    assert found.searched
-    return found
+def first(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[Cause], Known]:
+    causes, known, searched = run(tmp_path_factory.mktemp("first"))
+    assert searched
+    return causes, known
 
 
 @pytest.mark.slow
-def test_what_stands_on_the_same_is_carried_over(first: Told, tmp_path: Path) -> None:
-    found = run(tmp_path, Known(first.read, first.verdicts))
-    assert not found.searched
-    assert found.read == first.read
-    assert carried(found.causes, first.read).startswith(
-        f"causes: {len(first.read)} rows keep the committed ones"
-    )
-    assert carried(first.causes, {}) == ""
+def test_what_stands_on_the_same_is_carried_over(
+    first: tuple[list[Cause], Known], tmp_path: Path
+) -> None:
+    causes, known = first
+    again, read, searched = run(tmp_path, known)
+    assert not searched
+    assert read.causes == known.causes
+    told = carried(again, known.causes)
+    assert told.startswith(f"causes: {len(known.causes)} rows keep the committed ones")
+    assert carried(causes, {}) == ""
 
 
 Change = Callable[[Cause], Cause]
@@ -218,15 +178,17 @@ CHANGES: Mapping[str, Change] = {
 @pytest.mark.slow
 @pytest.mark.mutant("causes are carried over {what}")
 @pytest.mark.parametrize("what", [*CHANGES, "beside another verdict"])
-def test_what_does_not_is_searched(what: str, first: Told, tmp_path: Path) -> None:
+def test_what_does_not_is_searched(
+    what: str, first: tuple[list[Cause], Known], tmp_path: Path
+) -> None:
+    causes, known = first
     change = CHANGES.get(what, lambda cause: cause)
-    verdicts = first.verdicts
-    if what not in CHANGES:
-        verdicts = {key: f"{verdict}?" for key, verdict in verdicts.items()}
-    known = {key: [change(one) for one in some] for key, some in first.read.items()}
-    found = run(tmp_path, Known(known, verdicts))
-    assert found.searched
-    assert found.causes == first.causes
+    other = {key: [change(one) for one in some] for key, some in known.causes.items()}
+    mark = "" if what in CHANGES else "?"
+    verdicts = {key: f"{verdict}{mark}" for key, verdict in known.verdicts.items()}
+    again, _, searched = run(tmp_path, Known(other, verdicts))
+    assert searched
+    assert again == causes
 
 
 # `textmech causes` and `textmech advise` as a user meets them, with a case of one's own.

@@ -2,7 +2,7 @@
 
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -21,10 +21,10 @@ from textmech.reports.runs.processes import pool
 from textmech.reports.runs.request import Request
 from textmech.reports.runs.task_results import Results
 from textmech.reports.runs.tasks import Pair
-from textmech.reports.search.causes import parallel_search as tested
+from textmech.reports.search.causes import search as tested
 from textmech.reports.search.causes.candidate import Candidate
 from textmech.reports.search.causes.errors import Errors, Run, errors, of
-from textmech.reports.search.causes.parallel_search import Asking, Known, Search, together
+from textmech.reports.search.causes.search import Runs, together
 
 # One simulation is judged as its row is: the same numbers, whatever asks for them.
 
@@ -121,11 +121,6 @@ def planted(run: Run) -> Errors:
     return {"x": (run.candidate.step, 0.0)}
 
 
-def asking(known: Known, *rounds: list[Candidate]) -> Asking[list[Errors]]:
-    yield from rounds
-    return [known[candidate] for wanted in rounds for candidate in wanted]
-
-
 @pytest.fixture
 def told() -> list[tuple[str, int, int]]:
     return []
@@ -140,10 +135,16 @@ def results(
         yield Results(working, lambda *now: told.append(now[:3]), Store(tmp_path), Keys.now(None))
 
 
-def search(results: Results, name: str, *rounds: list[Candidate]) -> Search[list[Errors]]:
-    case, known = scenes.SHIPPED[name], Known()
-    pair = Pair(case, engines.make("pymunk", "shipped"), results.store, "")
-    return Search(pair, known, asking(known, *rounds))
+def search(results: Results, name: str, *rounds: list[Candidate]) -> Callable[[], list[Errors]]:
+    case = scenes.SHIPPED[name]
+    runs = Runs(Pair(case, engines.make("pymunk", "shipped"), results.store, ""))
+
+    def found() -> list[Errors]:
+        for wanted in rounds:
+            runs.need(wanted)
+        return [runs.known[candidate] for wanted in rounds for candidate in wanted]
+
+    return found
 
 
 def test_each_finds_what_it_asked_for_and_progress_ends_once(
