@@ -27,7 +27,7 @@ def questions() -> dict[str, Path]:
 
 
 def is_shipped(file: Path | str) -> bool:
-    """Whether the file is one that comes with the suite: told by its place, for rows ask often."""
+    """Whether the file comes with the suite, decided by its path, which is fast."""
     path, home = Path(file).resolve(), Path(__file__).resolve().parent
     return (
         path.parent in (home, home / QUESTIONS, home / MODELS)
@@ -46,7 +46,7 @@ def _files_by_name(folder: Path) -> dict[str, Path]:
 
 
 def find(words: Sequence[str]) -> list[Path]:
-    """The file of each word. Raises CaseError that names every word which is none."""
+    """Return the file of each word. Raises CaseError with every word that is no case."""
     case_files, model_files = shipped(), models()
     alike = [*case_files, *model_files]
     paths: list[Path] = []

@@ -71,7 +71,7 @@ def load_document(
 
 
 def merge_mistakes(by_variant: Mapping[str, list[Mistake]]) -> list[Mistake]:
-    """Mistakes of all variants: one that all share once, any other with its variant's name."""
+    """Merge the mistakes of all variants: shared ones once, others with their variant's name."""
     shared = set.intersection(*(set(mistakes) for mistakes in by_variant.values()))
     return [
         m if m in shared else replace(m, what=f"{m.what} (variant {variant!r})")
@@ -89,7 +89,7 @@ def merge_mistakes(by_variant: Mapping[str, list[Mistake]]) -> list[Mistake]:
 def overlay(
     document: Document, keys: Sequence[str] = OVERLAID
 ) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:
-    """Returns the variants, and what is wrong with the way in which they are written.
+    """Returns the variants, and the mistakes in how they are written.
 
     The variants are by name ("" where the file has none): the merged data, and the source that
     says where in the file each of their keys is written. keys: which a variant may change.
@@ -145,7 +145,7 @@ def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
 def _check_base(
     document: Document, variants: Mapping[str, tuple[dict[str, Any], Source]]
 ) -> Iterator[Mistake]:
-    """Mistakes of form in what every variant replaces, which none of them would show.
+    """Mistakes of form in those parts of the base that every variant replaces.
 
     Read with the first variant around them: units, names and `space` may be its own.
     """

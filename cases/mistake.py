@@ -95,12 +95,12 @@ def nearest(word: str, words: Iterable[str]) -> str:
 
 
 def _ends_alike(word: str, other: str) -> int:
-    """How many of some beginnings and ends two words share, less what one is longer."""
+    """A measure of how alike the beginnings and ends of two words are."""
     begins = (word[:1] == other[:1]) + (word[:3] == other[:3]) + (word[:6] == other[:6])
     ends = (word[-1:] == other[-1:]) + (word[-3:] == other[-3:]) + (word[-6:] == other[-6:])
     return 4 * (begins + ends) - abs(len(word) - len(other))
 
 
 def list_hint(words: Sequence[str]) -> str:
-    """A hint: what there is, or nothing where that is too much to read."""
+    """A hint that lists the words, or nothing if they are too many."""
     return f"; known: {', '.join(words)}" if 0 < len(words) <= 12 else ""

@@ -24,7 +24,7 @@ OPENING = {"normal", "gap"}  # what is zero while nothing touches, or while some
 
 
 def themes(case: Case) -> tuple[str, ...]:
-    """In the order of THEMES; a case that is about none of the others is about its joints."""
+    """The themes of a case, in the order of THEMES; `pins` if no other applies."""
     scene = case.scene
     words = {force.word for force in scene.forces.values()}
     contacts = scene.contacts.values()

@@ -120,7 +120,7 @@ def amount(value: object, known: Names = NONE) -> Amount:
 
 
 def parameters_in(text: str, parameters: Collection[str]) -> set[str]:
-    """The parameters that a text names: as a number, as `-name`, or in a formula, which is none."""
+    """The parameters that a text names: as a number, as `-name`, or in a formula."""
     whole = not _formula(text) or _QUANTITY.fullmatch(text)
     words = [text.removeprefix("-")] if whole else _words(text)
     return {word for word in words if word in parameters}
@@ -136,7 +136,7 @@ def _words(formula: str) -> list[str]:
 
 
 def _suggestion(formula: str, known: Names) -> str:
-    """The words for what to write instead: of two numbers what they make."""
+    """The value to write in place of a formula, in words; only of two numbers is it computed."""
     of_two = _OF_TWO.fullmatch(formula)
     x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
     if of_two is None or x is None or y is None or (of_two[2] == "/" and not y):
@@ -157,7 +157,7 @@ def _operand(word: str, known: Names) -> float | None:
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
-    """Any number of the language, in SI; None where it is mistaken, or names what is."""
+    """Parse any number of the language, in SI; None where it, or its parameter, is mistaken."""
     if value is MISTAKEN:
         return None
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
@@ -178,7 +178,7 @@ def number(value: object, unit: str | None, known: Names) -> Amount | None:
 
 
 def check_angle(given: Amount, unit: str | None) -> Amount:
-    """The amount; of an angle above one turn it is asked whether it is one in degrees."""
+    """Return the amount. Raises NumberMistake for a plain angle of more than one turn."""
     if unit == "rad" and given.dimension is None and abs(given.value) > TURN:
         raise NumberMistake(
             f"is {given.text or f'{given.value:g}'} rad, which is {given.value / TURN:.2g} turns: "
@@ -188,7 +188,7 @@ def check_angle(given: Amount, unit: str | None) -> Amount:
 
 
 def check_unit(given: Amount, unit: str | None) -> Amount:
-    """The amount, if it can be measured in `unit` (None: in anything)."""
+    """Return the amount. Raises NumberMistake unless `unit` (None: any) fits it."""
     if unit is None or given.dimension is None or given.dimension == _dimension(unit):
         return given
     if given.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
@@ -219,7 +219,7 @@ def _amount_with_unit(value: float, unit: str, text: str) -> Amount:
 
 
 def _check_size(value: float, text: object) -> float:
-    """The value, if it can be computed with."""
+    """Return the value. Raises NumberMistake unless it is finite and of a sensible size."""
     if not math.isfinite(value):
         raise NumberMistake(f"must be finite, is {text}")
     if value and not SMALLEST <= abs(value) <= LARGEST:
@@ -228,7 +228,7 @@ def _check_size(value: float, text: object) -> float:
 
 
 def _without_angle(dimension: str) -> str:
-    """The dimension of what has a mass, without its angle; else empty: 1/s may be of turns."""
+    """The dimension without its angle if it has a mass; else empty, as 1/s may count turns."""
     return re.sub(r" [*/] \[angle\]", "", dimension) if "[mass]" in dimension else ""
 
 
@@ -251,7 +251,7 @@ def _quantity(value: float, unit: str) -> Any:
 
 
 def _split_units(word: str) -> tuple[str, ...]:
-    """Units that were written together, as Nm; none where it is no such word."""
+    """Split a word such as Nm into its units; empty if it is not made of known units."""
     for known in sorted(_KNOWN, key=len):
         if word == known:
             return (known,)

@@ -55,7 +55,7 @@ def in_words(
 
 
 def _unknown(error: Mapping[str, Any], keys: Sequence[str]) -> bool:
-    """Where any other key may name a point, what is no place [x, y] is a misspelt key."""
+    """Whether a key is unknown; one that may name a point is, unless it has a place [x, y]."""
     loc = error["loc"]
     if len(loc) != 1 or loc[0] in keys:
         return False

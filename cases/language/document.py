@@ -40,7 +40,7 @@ class Document:
 
 
 def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
-    """The file's data, or CaseError where nothing sensible can be read from it.
+    """Read the file's data. Raises CaseError where nothing sensible can be read from it.
 
     only: the keys at its margin to read, where not all are asked for, in a quarter of the time.
     """
@@ -72,14 +72,14 @@ def _parsed(file: str, text: str) -> Document:
 
 
 def _ambiguous_break(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
-    """ruamel counts lines without it, and ends comments with it."""
+    """The mistake of a line break that ruamel counts in comments only."""
     line, column = _end(text[:at])
     what = f"the character {plain(text[at])} ends a line for some and not for others: leave it out"
     return Mistake(file, line, column, "", what, lines[line - 1])
 
 
 def _blank_others(text: str, keys: Collection[str]) -> str:
-    """Nothing stands on the lines of other keys: places stay what they are."""
+    """Blank the lines of all other keys, so that places stay the same."""
     keep, parts = True, BREAK.split(text)
     for k in range(0, len(parts), 2):
         if parts[k][:1].strip(" \t#"):
@@ -114,7 +114,7 @@ def _text(path: FilePath) -> str:
 
 
 def _end(text: str) -> tuple[int, int]:
-    """Line and column, from 1, of what would follow the text."""
+    """Line and column, from 1, just after the end of the text."""
     lines = BREAK.split(text)[::2]
     return len(lines), len(lines[-1]) + 1
 

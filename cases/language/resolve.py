@@ -45,7 +45,7 @@ def resolve_scene(file: File) -> Scene:
 
 
 def _with_start(joint: Joint, start: Any) -> Joint:
-    """With the angles of the start, near which turns in space are counted."""
+    """The joint with its start angles, from which turns in space are counted."""
     given = {} if start is None else start.given
     turns = [turn.name for turn in joint.turns if turn.name in given]
     return replace(joint, begins={name: given[name] for name in turns})
@@ -132,7 +132,7 @@ def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]
 def _with_free_attitudes(
     starts: dict[str, Placement], scene: Scene, events: Mapping[str, Mapping[str, Any]]
 ) -> dict[str, Placement]:
-    """With the attitude 0 of each disk or sphere that gives none, if nothing depends on it."""
+    """The starts, with attitude 0 for each disk or sphere whose attitude changes nothing."""
     in_space = scene.frame is not PLANE
     marks = [name.split(".", 1) for rules in events.values() for name in rules]
     joints = [
@@ -179,7 +179,7 @@ def _turns_alike(joint: Joint, starts: Mapping[str, Placement], scene: Scene) ->
 
 
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:
-    """x and y of what is so far from where a point of the ground starts, in such a direction."""
+    """x and y from polar coordinates about a point of the ground."""
     if given is None or (point := anchor(given[0]).point) not in scene.points:
         return {}  # the latter is a mistake, see check/start.py
     (x, y, *_), (_, length, direction) = scene.points[point].state(0.0), given

@@ -109,7 +109,7 @@ class Scene:
                     raise ValueError(f"{name!r} is not of the scene's frame, {self.frame.name}")
 
     def __getstate__(self) -> dict[str, object]:
-        """The fields alone: what was made of them (`once`) is made anew."""
+        """The fields without cached results (`cached_by_scene`), which are computed anew."""
         return {of.name: getattr(self, of.name) for of in fields(self)}
 
     def driven(self) -> Mapping[str, Fields]:
@@ -214,7 +214,7 @@ Made = TypeVar("Made")
 
 
 def cached_by_scene(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
-    """Returns the function as one that makes its answer once for each scene, and keeps it there.
+    """Decorate a function of a scene so that each scene keeps its result.
 
     The answer is handed out as it is: whoever asks does not change it.
     """

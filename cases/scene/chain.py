@@ -13,7 +13,7 @@ ROUNDING = 3 * float(np.finfo(float).eps)  # of three numbers each
 
 
 def orthonormal(vectors: Sequence[Sequence[float]]) -> list[Array]:
-    """Orthonormal vectors that span the same, by Gram and Schmidt."""
+    """Orthonormal vectors with the same span, by Gram and Schmidt."""
     basis: list[Array] = []
     for vector in vectors:
         rest = np.asarray(vector, dtype=float)
@@ -24,7 +24,7 @@ def orthonormal(vectors: Sequence[Sequence[float]]) -> list[Array]:
 
 
 def orthogonal_complement(vectors: Sequence[Sequence[float]]) -> list[Array]:
-    """Orthonormal vectors that complete what the given ones span to all of space."""
+    """Orthonormal basis of the orthogonal complement of the given vectors."""
     basis = orthonormal(vectors)
     complement: list[Array] = []
     for _ in range(3 - len(basis)):

@@ -1,6 +1,6 @@
 """Turns of joints in space with their whole turns: attitudes tell an angle but for these.
 
-They are counted from row to row, on rows as close as `far` asks; whoever makes a motion has them.
+They are counted from row to row, on rows as close as `ambiguous_turns` asks.
 """
 
 import math
@@ -19,7 +19,7 @@ OFF = 0.1  # rad from what both rates say
 
 
 def nearest(ways: Sequence[Turns], expected: Array) -> Turns:
-    """The turns (N, K) of the way, row by row, that is nearest to what is expected (N, K)."""
+    """The turns (N, K), in each row of that solution which is nearest to `expected` (N, K)."""
     angles = [way.near(expected) for way in ways]
     if len(ways) == 1:
         return replace(ways[0], angles=angles[0])
@@ -30,10 +30,10 @@ def nearest(ways: Sequence[Turns], expected: Array) -> Turns:
 
 
 def counted(ways: Sequence[Turns], times: Array, begins: Sequence[float | None]) -> Turns:
-    """The turns with their whole turns counted from row to row, from what they begin near.
+    """The turns with whole turns counted from row to row, from the angles where they begin.
 
     Between two rows a turn goes on by the mean of both rates, to less than half a turn: the rows
-    have to be as close as `far` asks. What begins near nothing begins within half a turn of zero.
+    have to be as close as `ambiguous_turns` asks. Without a start it is within half a turn of 0.
     """
     way, start = _nearest_at_start(ways, begins)
     if len(ways) > 1:
@@ -45,7 +45,7 @@ def counted(ways: Sequence[Turns], times: Array, begins: Sequence[float | None])
 
 
 def _nearest_at_start(ways: Sequence[Turns], begins: Sequence[float | None]) -> tuple[Turns, Array]:
-    """The way whose first row is nearer to what is said of the start, and its angles (K,) there."""
+    """The solution whose first row is nearest to the given start, and its angles (K,) there."""
     known = np.array([math.nan if begin is None else begin for begin in begins])
     candidates = []
     for way in ways:
@@ -74,7 +74,7 @@ def _one_by_one(ways: Sequence[Turns], times: Array, start: Array) -> Turns:
 
 
 def ambiguous_turns(turns: Turns, times: Array) -> Array:
-    """(N − 1,) whether a turn goes so far between two rows that they may not tell how far.
+    """(N − 1,) whether a turn moves too far between two rows to count whole turns.
 
     Or the middle one of three so far as gimbal lock is away, at which the others may go anywhere.
     """

@@ -11,7 +11,7 @@ from . import Anchor, Scene
 
 
 def solved_scenes(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
-    """The scenes that are solved one by one: the islands, or one of what is looked at together.
+    """The scenes that are solved separately: the islands, or the whole scene.
 
     A hand-written system is one, and events are read from the record of one motion.
     """
@@ -19,7 +19,7 @@ def solved_scenes(scene: Scene, system: object, events: object) -> tuple[Scene, 
 
 
 def islands(scene: Scene) -> tuple[Scene, ...]:
-    """The bodies that hang together, with all that acts on them; of one island the scene itself."""
+    """Split a scene into its connected parts, with all that acts on each."""
     together = {name: {name} for name in scene.bodies}
     ends = {name: _bodies(scene, anchors) for name, anchors in _connections(scene)}
     for bodies in ends.values():
@@ -30,7 +30,7 @@ def islands(scene: Scene) -> tuple[Scene, ...]:
 
 
 def _connections(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
-    """Yields what is between bodies, or between a body and the ground: its name and its points."""
+    """Yields name and points of each element that connects bodies, or one with the ground."""
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs):
         yield from ((element.name, element.refers()) for element in section.values())
     for force in scene.forces.values():

@@ -183,7 +183,7 @@ class Joint:
 
     @property
     def begun(self) -> list[float | None]:
-        """Near which angle each turn begins, as far as that is said."""
+        """The start angle of each turn, None where it is not given."""
         return [self.begins.get(f.name) for f in self.turns]
 
     def turning(self, name: str) -> int:
@@ -279,7 +279,7 @@ class Joint:
         return np.hstack([shifts[0], turns.angles]), np.hstack([shifts[1], turns.rates])
 
     def turned(self, motion: Motion) -> Turns:
-        """Its turns in space by themselves, of which none is a ball's."""
+        """The turns of a joint in space; not of a ball."""
         first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
         ways = turn_solutions([f.axis for f in self.turns], *first, *second)
         expected = motion.trajectory.near.get(self.name)

@@ -19,7 +19,7 @@ from ..trajectory import Array, Trajectory
 def work_done(
     motion: Trajectory, corners: Iterable[float], power: Callable[[Trajectory], Array]
 ) -> Array:
-    """(N,) work [J] since the first sample, of a power [W] that is told at any rows of a motion."""
+    """(N,) work [J] since the first sample, from a function for the power [W]."""
     work, before = [np.zeros(0)], 0.0
     for piece in pieces(motion, corners):
         own = motion.times[piece.own]
@@ -83,7 +83,7 @@ class Piece:
 
 
 def pieces(motion: Trajectory, corners: Iterable[float]) -> Iterator[Piece]:
-    """The pieces in their order; of a motion without corners it is itself the only one.
+    """Split a motion at the corners of its laws; without corners it is one piece.
 
     The last begins and ends with the last sample, where that is on a corner.
     """
@@ -121,7 +121,7 @@ def _instants(times: Array, corners: Iterable[float]) -> list[tuple[float, float
 
 
 def _adds_information(times: Array, corner: float, part: slice, length: float) -> bool:
-    """Whether a corner of a part is not near its samples, so that it tells more than they do."""
+    """Whether a corner is far enough from the samples of its part to add information."""
     before, after = times[_neighbours(times, corner)]
     return bool(np.all(np.abs(times[part] - corner) >= NEAR * min(after - before, length)))
 
@@ -185,12 +185,12 @@ def _rows(motion: Trajectory, part: slice, begin: float) -> Trajectory:
 
 
 def _row_before(row: Trajectory) -> Trajectory:
-    """The row at the last time before its own: what follows a law has not jumped there."""
+    """The same row one ulp of time earlier, before a law jumps."""
     return Trajectory(np.nextafter(row.times, -np.inf), row.states, row.reactions, near=row.near)
 
 
 def _concatenate(parts: list[Trajectory]) -> Trajectory:
-    """Rows after rows."""
+    """Concatenate trajectories."""
     first = parts[0]
     if len(parts) == 1:
         return first

@@ -85,7 +85,7 @@ def at_event(name: str, events: Container[str]) -> AtEvent | None:
 
 
 def needed_by_events(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
-    """The quantities that the events are of, and those that are bounded at events."""
+    """The quantities of the events, and those with bounds at an event."""
     names = [event.quantity for event in events.values()]
     return names + [at.quantity for name in bounded if (at := at_event(name, events))]
 

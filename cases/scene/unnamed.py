@@ -24,7 +24,7 @@ Depths = Callable[[str, Vector], Array]
 
 
 def penetrations(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
-    """Yields a sentence for each thing that points of a body go through, about the deepest."""
+    """Yields a sentence for each surface that a body penetrates, with its deepest point."""
     motion = motion_of(scene, trajectory)
     for body in scene.bodies.values():
         outline = _outline(body)
@@ -41,7 +41,7 @@ def penetrations(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
 
 
 def _outline(body: Body) -> Mapping[str, Vector]:
-    """The points that the body has beside its centre, by name; of what is round none stands out."""
+    """The points of the body but its centre, by name; empty for a round body."""
     if body.radius is not None:
         return {}
     points = {name: at for name, at in body.points.items() if name != CENTER}
@@ -52,7 +52,7 @@ def _outline(body: Body) -> Mapping[str, Vector]:
 
 
 def _named_points(scene: Scene, body: Body, motion: Motion) -> dict[tuple[str, Depths], set[str]]:
-    """The planes and sides that contacts of the body are with, and the points that these name."""
+    """The surfaces in contacts of the body, each with the points that the contacts name."""
     by_name: dict[str, Depths] = {}
     names: dict[tuple[str, Depths], set[str]] = {}
     for contact in scene.contacts.values():
@@ -73,7 +73,7 @@ def _depth(motion: Motion, body: Body, plane: Plane, name: str, at: Vector) -> A
 
 
 def _depth_inside(motion: Motion, pair: Pair, name: str, at: Vector) -> Array:
-    """0 beside the face, and beyond the block's other side: there it is below, and not inside."""
+    """(N,) depth [m] in a block; 0 beside the face and beyond the opposite side."""
     other = replace(pair, at=Anchor(pair.body, name))
     depth = -other.normal_and_gap(motion)[1]
     thick = min(motion.bodies[pair.touched].size)

@@ -34,7 +34,7 @@ NO_SLIP = "option noslip_iterations: forces that a second pass changes follow no
 
 
 def first_constraint(m: mujoco.MjModel, data: mujoco.MjData) -> str:
-    """Returns in words what acts first among the constraints of a state."""
+    """Returns the name of the first active constraint of a state."""
     return _name(m, data, 0)
 
 

@@ -156,7 +156,7 @@ def constraints(m: mujoco.MjModel) -> list[str]:
 
 
 def _other_counts(m: mujoco.MjModel) -> list[str]:
-    """Returns how much there is of all else, in words."""
+    """Returns the numbers of geoms, equalities, tendons, sensors and so on, in words."""
     touch = (m.geom_contype != 0) | (m.geom_conaffinity != 0)
     fixed = len(fixed_tendons(m))
     kinds = Counter(mujoco.mjtEq(kind).name.removeprefix("mjEQ_").lower() for kind in m.eq_type)
@@ -185,7 +185,7 @@ def _range(ends: Array, limited: bool, unit: str = "") -> str:
 
 
 def _common_value(values: Array) -> str:
-    """Returns the number that all are; of several each; nothing, if they are 0."""
+    """Returns the values in words: one number if all are equal, empty if all are 0."""
     return _numbers(values[:1] if len({*values.tolist()}) == 1 else values) if values.any() else ""
 
 

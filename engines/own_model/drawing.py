@@ -54,7 +54,7 @@ def pivots(model: mujoco.MjModel) -> list[tuple[str, Array]]:
 
 
 def refined(own: OwnModel, times: Array, y: Array, parts: int) -> tuple[Array, Array]:
-    """Returns the times and y (N, k) of a motion with each of its samples cut into so many parts.
+    """Interpolates a motion: times and y (N, k), with each interval cut into so many parts.
 
     Between two samples each joint moves as the cubic through both with both rates, so that none
     opens.

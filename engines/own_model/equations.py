@@ -215,7 +215,7 @@ def controls_of(own: OwnModel, start: mujoco.MjData) -> Controls:
 
 
 def data_from(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:
-    """Returns data of the model that begin where others stand, with their controls."""
+    """Returns new data of the model with the state and controls of others."""
     data = mujoco.MjData(model)
     for name in ("qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"):
         getattr(data, name)[:] = getattr(start, name)

@@ -167,7 +167,7 @@ PAIRS = (
 
 
 def apart_by_pairs(model: mujoco.MjModel) -> bool:
-    """Whether what `refsafe` makes of contacts at the model's own step can be written into none."""
+    """Whether `refsafe` raises the time constants of some geoms' contacts, and not of all."""
     collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     times = model.geom_solref[collides, 0]
     short = (times > 0) & (times < 2 * model.opt.timestep)

@@ -69,7 +69,7 @@ class OwnModel:
 
     @property
     def started(self) -> str:
-        """From where it is started, in words."""
+        """The start, in words."""
         if self.begins:
             return f"from {self.begins}"
         if self.model.nkey:
@@ -148,7 +148,7 @@ def drawn_rates(model: mujoco.MjModel, most: float = RATE, seed: int = 0) -> Arr
 
 
 def joint_moves(model: mujoco.MjModel, start: Array, end: Array) -> Array:
-    """(N, n) [rad, m]: by how much each joint has to move from q (N, m) to the other."""
+    """(N, n) [rad, m] displacement of each joint between two coordinates (N, m)."""
     joints = np.empty((len(start), model.nv))
     for row, a, b in zip(joints, start, end, strict=True):
         mujoco.mj_differentiatePos(model, row, 1.0, a, b)
@@ -163,7 +163,7 @@ def image(model: mujoco.MjModel) -> bytes:
 
 
 def displaced(model: mujoco.MjModel, q: Array, by: Array) -> Array:
-    """Returns coordinates q (m,), of which each joint is moved by (n,) [rad, m]."""
+    """Returns coordinates q (m,) displaced in each joint by (n,) [rad, m]."""
     other = np.array(q)
     mujoco.mj_integratePos(model, other, by, 1.0)
     return other

@@ -64,7 +64,7 @@ def numbers(model: mujoco.MjModel, start: mujoco.MjData, places: Places) -> Tree
 
 
 def element_name(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
-    """Returns what an element is called; its number, if it has no name."""
+    """Returns the name of an element; its number, if it has none."""
     return mujoco.mj_id2name(model, kind, number) or f"#{number}"
 
 
@@ -154,7 +154,7 @@ def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
 
 
 def _unread_actuator(m: mujoco.MjModel, i: int) -> str:
-    """Returns what of an actuator is read by no equation here, in words; or nothing."""
+    """Returns in words which feature of an actuator no equation here has; else empty."""
     target, transmission = m.actuator_trnid[i, 0], mujoco.mjtTrn(m.actuator_trntype[i])
     if m.actuator_plugin[i] >= 0:
         return "a plugin"
@@ -211,7 +211,7 @@ def _clamped_ranges(m: mujoco.MjModel) -> Array:
 
 
 def _unread(m: mujoco.MjModel, places: Places) -> dict[str, list[str]]:
-    """Returns what the model has beside, by the part of the equations that lacks it."""
+    """Returns the elements that are not in the equations, by the part that lacks them."""
     unread: dict[str, list[str]] = {part: [] for part in PARTS}
     joint, tendon, actuator = OBJECT.mjOBJ_JOINT, OBJECT.mjOBJ_TENDON, OBJECT.mjOBJ_ACTUATOR
 

@@ -1,4 +1,4 @@
-"""Names what of a model's law hangs on its step, or on a state beside q, v and act."""
+"""Names elements whose law depends on the step, or on a state other than q, v and act."""
 
 from collections.abc import Iterator
 
@@ -20,7 +20,7 @@ REASONS = {
 
 
 def with_step(own: OwnModel) -> list[str]:
-    """Returns what of a model's law hangs on its step, in words, with its elements."""
+    """Returns in words why a model's law depends on its step, with the elements."""
     elements: dict[str, list[str]] = {}
     for reason, name in _elements(own):
         elements.setdefault(reason, []).append(name)

@@ -151,7 +151,7 @@ def _spring(links: Links, c: DampedSpring, name: str, place: str) -> None:
 def _rotary_spring(
     r: Reading, c: DampedRotarySpring, name: str, place: str, joint: str, s: float, o: float
 ) -> None:
-    """pymunk's torque on b is c (a.angle − b.angle − rest_angle): it rests where b is that behind.
+    """Read a rotary spring: pymunk's torque on b is c (a.angle − b.angle − rest_angle).
 
     So φ rests at −s (rest_angle + o).
     """
@@ -175,7 +175,7 @@ def _limit(
 def _motor(
     r: Reading, c: SimpleMotor, name: str, place: str, joint: str, s: float, o: float
 ) -> None:
-    """pymunk's rate is that of a against b. With a bound, one that stands still rubs in its pin."""
+    """Read a motor: its rate is of a against b; bounded and at rest it is friction."""
     rate, now = -s * c.rate, s * (c.b.angular_velocity - c.a.angular_velocity)
     if f"{joint}.omega" in r.drive or "dry_friction" in r.joints[joint]:
         r.refuse(place, SECOND)
@@ -194,7 +194,7 @@ def _motor(
 
 
 def _gear(r: Reading, c: GearJoint, name: str, place: str, joint: str, s: float, o: float) -> None:
-    """With the ratio 1 it holds b.angle − a.angle: the pin is a weld then, and the slot a slide."""
+    """Read a gear: with the ratio 1 it makes a weld of a pin, and a slide of a slot."""
     if c.ratio != 1.0:
         r.refuse(place, f"has the ratio {c.ratio:g}, and only 1 has a word")
     words = r.joints[joint]

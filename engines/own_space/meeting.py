@@ -1,4 +1,4 @@
-"""Finds what meets in a motion: outlines that overlap, and contacts that close beside a side.
+"""Finds when outlines overlap in a motion, and when contacts close past a side's ends.
 
 An outline is convex, as far around its corners as its radius. Two are apart by the least distance
 of a corner of one from a side of the other, unless no side has all of the other before it.
@@ -39,7 +39,7 @@ def _first_time(motion: Trajectory, are: NDArray[np.bool_]) -> float:
 
 
 def past_end_times(scene: Scene, motion: Trajectory, touch: Touch, size: float) -> dict[str, float]:
-    """By contact the first time [s] at which it closes beside the side that it is on; or inf."""
+    """First time [s], by contact, at which it closes past an end of its side; or inf."""
     places, times = motion_of(scene, motion), dict[str, float]()
     for name in touch.contacts:
         if name in scene.contacts and touch.side is not None:
@@ -55,7 +55,7 @@ def past_end_times(scene: Scene, motion: Trajectory, touch: Touch, size: float) 
 
 
 def _past_ends(side: Side, x: Array, y: Array, near: float) -> NDArray[np.bool_]:
-    """(N,) whether places are past an end of a side, along its line."""
+    """(N,) whether points are past an end of a side, along its line."""
     along = side.ends - side.begins
     (ux, uy), length = along.normalized(), along.length
     place = ux * (x - side.begins.x) + uy * (y - side.begins.y)
@@ -63,7 +63,7 @@ def _past_ends(side: Side, x: Array, y: Array, near: float) -> NDArray[np.bool_]
 
 
 def _corner_places(motion: Trajectory, outline: Outline) -> Array:
-    """(N, K, 2) the places of its corners."""
+    """(N, K, 2) positions of an outline's corners."""
     corners = np.array(outline.corners, float)
     if outline.body is None:
         return np.broadcast_to(corners, (len(motion.times), *corners.shape))
@@ -95,12 +95,12 @@ def gaps(a: Array, b: Array) -> Array:
 
 
 def _edges(outline: Array) -> list[tuple[Array, Array]]:
-    """From corner to corner; of a segment both ways, of one corner none."""
+    """The edges from corner to corner; both ways for a segment, none for one corner."""
     corners = [*np.moveaxis(outline, 1, 0)]
     return [*pairwise((*corners, corners[0]))] if len(corners) > 1 else []
 
 
 def _clearance(corners: Array, others: Array, n: Array) -> Array:
-    """(N,) how far the others are before these along a normal."""
+    """(N,) clearance [m] of the other corners from these along a normal."""
     most = np.max(np.einsum("nkd,nd->nk", corners, n), axis=1)
     return np.min(np.einsum("nkd,nd->nk", others, n), axis=1) - most

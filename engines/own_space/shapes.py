@@ -100,7 +100,7 @@ def _corners(shape: Shape) -> list[Vec2d]:
 
 
 def collisions(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Outline]]:
-    """Returns each two that pymunk lets collide; of one that moves and one that does not, it first.
+    """Returns each pair that pymunk lets collide, with a body of the scene first.
 
     As `cpSpaceStep` asks: not of one body, nor of two whose filters or joints forbid it.
     """
@@ -144,7 +144,7 @@ def _alike(a: float, b: float) -> bool:
 
 
 def _rim(own: list[Outline]) -> float:
-    """The radius of what is one circle about its centre of mass, else 0."""
+    """The radius of a body that is one circle about its centre of mass, else 0."""
     round_ = len(own) == 1 and len(own[0].corners) == 1
     return own[0].radius if round_ and own[0].corners[0].length <= ALIKE * own[0].radius else 0.0
 
@@ -174,7 +174,7 @@ def find_contacts(
 def _on_body(
     reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
-    """On a rim, or on the side of a box before which the first starts."""
+    """The contacts with a moving body: its rim, or the side of a box that faces the first."""
     body = second.shape.body
     assert body is not None
     own = [outline for outline in known if outline.body == second.body]
@@ -195,7 +195,7 @@ def _on_body(
 
 
 def _within_side(touch: Touch) -> bool:
-    """Whether what of the first is nearest to the side is over it, and not past its ends."""
+    """Whether the corner of the first nearest to the side is within the side's ends."""
     if touch.side is None:
         return True
     side, along = touch.side, touch.side.ends - touch.side.begins
@@ -204,7 +204,7 @@ def _within_side(touch: Touch) -> bool:
 
 
 def _contact_words(first: Outline, second: Outline, touching: str, touched: str) -> Words:
-    """pymunk multiplies the frictions of two shapes, and their elasticities."""
+    """The words of a contact; pymunk multiplies frictions and elasticities of two shapes."""
     return {
         "between": (touching, touched),
         "friction": first.shape.friction * second.shape.friction,
@@ -213,7 +213,7 @@ def _contact_words(first: Outline, second: Outline, touching: str, touched: str)
 
 
 def _touch_points(reading: Reading, known: Sequence[Outline], outline: Outline) -> dict[str, str]:
-    """Returns the words for what of it touches, and with what the names of their contacts end."""
+    """Returns the points that touch, in words, each with the ending of its contact's name."""
     body, name = outline.shape.body, outline.body
     assert body is not None
     assert name is not None
@@ -237,7 +237,7 @@ def _touch_points(reading: Reading, known: Sequence[Outline], outline: Outline) 
 def _on_ground(
     reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
-    """On a plane; a body that cannot turn is a particle, and its plane so much farther out."""
+    """The contacts with the ground, on planes; a body that cannot turn is a particle."""
     sides, body = _sides(second), first.shape.body
     assert body is not None
     if not sides:
@@ -272,7 +272,7 @@ def _sides(outline: Outline) -> list[Side]:
 
 
 def start_corners(outline: Outline) -> list[Vec2d]:
-    """Where its corners are at the start, in ground axes."""
+    """The corners of an outline at the start, in ground axes."""
     body = outline.shape.body
     if outline.body is None or body is None:
         return [*outline.corners]
@@ -281,6 +281,6 @@ def start_corners(outline: Outline) -> list[Vec2d]:
 
 
 def _facing_side(outline: Outline, sides: list[Side]) -> Side:
-    """The side from which the outline is farthest, so that it is before it."""
+    """The side that faces the outline: the one with the largest clearance."""
     corners = start_corners(outline)
     return max(sides, key=lambda s: min((c - s.begins).dot(s.normal) for c in corners))

@@ -1,4 +1,4 @@
-"""A Space → the data of a case file, and what in its motion would show that they are not enough."""
+"""Translates a Space into the data of a case file, and watches where these do not suffice."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -74,7 +74,7 @@ class Read:
         }
 
     def seen(self, scene: Scene, motion: Trajectory) -> "Read":
-        """With what the motion first shows to lack: a contact more, or one less that is astray.
+        """Returns the reading with the first contact that the motion shows to be missing or astray.
 
         Itself, where it lacks nothing; what has no word, or leaves its bounds, is refused then.
         """
@@ -141,7 +141,7 @@ class Read:
         }
 
     def _round(self, scene: Scene, contact: str) -> bool:
-        """Whether a rim touches, and no corner or particle."""
+        """Whether a contact is with a rim, not with a corner or a particle."""
         touching = (scene.contacts if contact in scene.contacts else scene.pairs)[contact]
         return scene.bodies[touching.body].radius is not None
 
@@ -170,7 +170,7 @@ class Read:
             yield "nothing falls asleep"
 
     def size(self, motion: Trajectory) -> float:
-        """How far [m] from corner to corner the motion reaches, with all that moves and holds.
+        """Diagonal [m] of the region that the motion and its anchors cover.
 
         At least a radius of gyration; 1 where nothing has a size.
         """
@@ -188,7 +188,7 @@ class Read:
 
 
 def read_space(space: Space) -> Read:
-    """Returns what is read of a Space."""
+    """Reads a Space into the words of a case file."""
     reading = read_bodies(space)
     read_constraints(reading)
     known = outlines(reading)

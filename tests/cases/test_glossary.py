@@ -1,4 +1,4 @@
-"""cases/GLOSSARY.md explains few words, and each of them is in the code or at the head of a table."""
+"""cases/GLOSSARY.md has few words, each of them in the code or at the head of a table."""
 
 import re
 from pathlib import Path

@@ -88,7 +88,7 @@ def _texts(data: object) -> set[str]:
 
 
 def stopping_drags(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Yields drags that would stop a motion's points anywhere; the motion itself shows the rest."""
+    """Yields drags whose exponent would stop a motion in a finite time."""
     if parsed.file.states is not None or parsed.lacks("states"):
         return
     for force in of_kind(Drag, scene.forces.values()):
@@ -138,7 +138,7 @@ def sampling(file: File, known: Engines | None) -> Iterator[Finding]:
 
 
 def _step_mistake(steps: Mapping[str | None, float], interval: float) -> tuple[Path, float] | None:
-    """Where the step [s] stands that does not divide the interval, and a smaller one that does."""
+    """Path of the first step [s] that does not divide the interval, and a smaller one that does."""
     for name, h in steps.items():
         if _divides(interval, 2, (h,)) or not 0 < h < inf:
             continue
@@ -202,7 +202,7 @@ def _particles(scene: Scene) -> Iterator[Finding]:
 
 
 def _chain(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """From the ground on each body hangs on one joint, whose freedoms have names."""
+    """Mistakes where bodies do not form trees from the ground, by joints with named freedoms."""
     if any(path[0] == "scene" for path in parsed.broken):
         return  # what is missing may be what joins them
     connected = {GROUND}
@@ -222,7 +222,7 @@ def _chain(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 
 
 def _joints_from_ground(scene: Scene) -> Iterator[tuple[str, Joint]]:
-    """The joints from the ground on; last those that begin at nothing that hangs."""
+    """The joints in order from the ground; last those that are not connected to it."""
     remaining, connected = dict(scene.joints), {GROUND}
     while remaining:
         ready = (name for name, joint in remaining.items() if joint.a.body in connected)

@@ -163,7 +163,7 @@ def _forces(parsed: Parsed, body: str, known: Mapping[str, Quantity]) -> Iterato
 
 
 def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:
-    """Why a joint has no such coordinate."""
+    """Why a joint has no coordinate of this name, in words."""
     coordinates = [f"'{part}.{name}'" for name in WORDS if f"{part}.{name}" in known]
     has = f"it has {' and '.join(coordinates)}" if coordinates else "it leaves nothing that has one"
     return f"{part!r} has no {field}: {has}"

@@ -97,7 +97,7 @@ def _other_foot(parsed: Parsed, scene: Scene, name: str) -> Iterator[Finding]:
 
 
 def _not_ideal(body: Body, ideal: str | None) -> str | None:
-    """Why the body cannot do what is assumed of it, or None."""
+    """Why the body cannot roll or pivot as the contact assumes, or None."""
     if ideal == "rolling" and body.radius is None:
         return f"{_shape_words(body)}; only a disk rolls"
     if ideal == "pivot" and (body.radius is not None or not body.turns):

@@ -41,7 +41,7 @@ def drives(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 
 
 def _no_joint(parsed: Parsed, scene: Scene, path: Path, part: str) -> Iterator[Finding]:
-    """A drive of what is no joint."""
+    """The mistake of a drive whose part is not a joint."""
     if not parsed.hides(part, ("joints",)):
         yield path, f"unknown joint {part!r}{nearest(part, parsed.names('joints', scene.joints))}"
 
@@ -56,7 +56,7 @@ def _check_units(path: Path, drive: Drive, unit: str) -> Iterator[Finding]:
 
 
 def _check_rate(path: Path, given: float, drive: Signal | None) -> Iterator[Finding]:
-    """A rate that is prescribed need not be given; what is given has to agree."""
+    """The mistake of a given rate that differs from its drive's at the start."""
     if drive is not None and abs(given - drive.at_start()[0]) > TYPED * abs(given):
         yield path, f"is {given:g}, but its drive begins with {drive.at_start()[0]:g}"
 

@@ -60,7 +60,7 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 
 
 def _check_seen_from(spec: Spec, scene: Scene) -> Iterator[Finding]:
-    """Seen from above there is a slope, and no floor that could be stood on."""
+    """Mistakes of `seen: from above`, which needs a slope and has no floor."""
     if spec.seen is None:
         return
     if spec.incline is None:
@@ -70,7 +70,7 @@ def _check_seen_from(spec: Spec, scene: Scene) -> Iterator[Finding]:
 
 
 def duplicate_names(parsed: Parsed) -> Iterator[tuple[Path, str]]:
-    """Names given twice: where the name stands again, and the section before."""
+    """Yields duplicate names: the path of the second, and the section of the first."""
     spec = parsed.file.scene
     places: list[Path] = [("scene", s, name) for s in NAMED for name in getattr(spec, s)]
     places += [("events", name) for name in parsed.file.events]  # `rolls.time` is a quantity
@@ -95,7 +95,7 @@ def _points(parsed: Parsed) -> Iterator[Finding]:
 def _check_points(
     parsed: Parsed, scene: Scene, path: Path, element: Joint | Edge | Force
 ) -> Iterator[Finding]:
-    """The points it refers to, one under its word or a list of two."""
+    """Mistakes in the points to which an element refers, one or a list of two."""
     points = element.refers()
     for i, at in enumerate(points):
         yield from no_point(parsed, scene, (*path, i) if len(points) > 1 else path, at)
@@ -137,14 +137,14 @@ def check_joint(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Itera
 
 
 def check_dry_pins(scene: Scene) -> Iterator[Finding]:
-    """Dry friction of a pin brakes a turn."""
+    """Mistakes of dry friction in pins of which a part cannot turn."""
     for name, joint in scene.joints.items():
         if joint.dry_friction is not None and not joint.shifts:
             yield from unturnable_parts(scene, ("scene", "joints", name, "dry_friction"), joint)
 
 
 def unturnable_parts(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
-    """Parts of the joint that cannot turn."""
+    """Yields the parts of the joint that cannot turn, as mistakes."""
     for at in joint.refers():
         if at.body in scene.bodies and not scene.bodies[at.body].turns:
             yield path, f"{joint.name!r} joins {at.body!r}, which is a particle and cannot turn"
@@ -154,7 +154,7 @@ def unturnable_parts(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding
 
 
 def no_turn(joint: Any, force: Force) -> str | None:
-    """Why there is no such turn, or none about which anything can act."""
+    """Why a force cannot act about the turn that it names, in words, or None."""
     found: Joint = joint
     name, freedom = found.name, force.turn
     turns = [f.name for f in found.turns if f.name]

@@ -108,7 +108,7 @@ def _origin(parsed: Parsed, scene: Scene, name: str, start: Initial) -> Iterator
 
 
 def _of_planar_joint(path: Path, scene: Scene, place: Near) -> Iterator[Finding]:
-    """Every mistake in what is said of a joint."""
+    """Every mistake in the start of a joint."""
     key, name = path
     joint, starts = scene.joints[str(name)], key == "initial"
     known = [word for word in scene.coordinates()[joint.name] if starts or word not in joint.rates]

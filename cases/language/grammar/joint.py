@@ -105,7 +105,7 @@ def parallel(a: Vector3, b: Vector3) -> bool:
 
 
 def _freedoms(written: dict[str, Left]) -> tuple[Freedom, ...]:
-    """In the order of the file; a mistake where they are no coordinates."""
+    """The freedoms in the file's order; a mistake where they are not independent."""
     freedoms = tuple(freedom.named(name) for name, freedom in written.items())
     shifts = [f for f in freedoms if f.kind == "shift"]
     turns = [f for f in freedoms if f.kind == "turn"]
@@ -134,7 +134,7 @@ def _spanned(axis: Vector3, others: list[Vector3]) -> bool:
 
 
 def _no_name_twice(freedoms: tuple[Freedom, ...]) -> None:
-    """Coordinates, rates and what drives exert are quantities, as the joint's reactions are."""
+    """Raises a mistake where a freedom, its rate or its effort takes a name that is taken."""
     taken = dict.fromkeys(HELD, "")
     for f in freedoms:
         for name in (f.name, f.rate, f.effort):
