@@ -1,4 +1,4 @@
-"""What an engine's options may be, and each mistake in a user's own with its place."""
+"""Checks the options of an engine that a user gives, and names each mistake with its place."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches

@@ -68,7 +68,7 @@ class Group:
 
     @property
     def attributes(self) -> dict[str, Check]:
-        """What each of its attributes may be."""
+        """Returns what each of its attributes may be."""
         return {self.attribute(name): check for name, check in SOFT.items()} | {**self.more}
 
 

@@ -143,7 +143,7 @@ def overlaid(
 def _alone(
     given: Mapping[str, Mapping[str, Any]], single: Mapping[str, Group]
 ) -> Iterator[tuple[str, Any]]:
-    """What is for one contact or one joint's stops alone, as far as the scene has it."""
+    """Yields the options of one contact or one joint's stops alone, as far as a scene has them."""
     for element, numbers in given.items():
         if group := single.get(element):
             for name, value in numbers.items():
@@ -152,7 +152,7 @@ def _alone(
 
 
 def _written(options: Mapping[str, Any], groups: Sequence[Group]) -> Iterator[tuple[str, Any]]:
-    """What stands in one place only."""
+    """Yields the options that stand in one place only."""
     for name, value in options.items():
         if name in ELEMENTS:
             yield from (

@@ -32,7 +32,7 @@ def digits(error: float) -> float:
 
 @dataclass(frozen=True)
 class Search:
-    """What a recipe may be made of, what it costs, and what it has to keep.
+    """The choices that a recipe may be made of, what it costs, and what it has to keep.
 
     margin: how often the worst error has to fit into what is allowed. scale: by quantity what its
     error over the case's own tolerance is multiplied by, where another tolerance is asked for.

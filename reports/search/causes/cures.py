@@ -118,7 +118,7 @@ def _groups(errors: RowErrors) -> Iterator[Iterable[Changes]]:
 
 
 def _by_step(sets: Iterable[Changes]) -> tuple[list[Changes], list[Changes]]:
-    """Those that keep the step, and those that do not."""
+    """Returns those that keep the step, and those that do not."""
     every = list(sets)
     return [each for each in every if STEP not in each], [each for each in every if STEP in each]
 

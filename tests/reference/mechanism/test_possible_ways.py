@@ -162,7 +162,7 @@ allow: {shelf.y: 1.0e-3}
 
 
 def test_a_wall_of_ten_bricks_rests() -> None:
-    assert rests(scenes.scene("wall_of_bricks"))
+    assert rests(scenes.SHIPPED["brick_wall"])
 
 
 @pytest.mark.parametrize(("over", "does"), [("0.199", "sticks"), ("0.201", "open")])

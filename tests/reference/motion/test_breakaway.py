@@ -211,7 +211,11 @@ AGAIN: dict[str, tuple[str, dict[str, Any], tuple[float, float, float], float, i
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", AGAIN)
-def test_a_slip_is_followed_as_often_as_it_comes_back(name: str, faster: float = 1.0) -> None:
+def test_a_slip_is_followed_as_often_as_it_comes_back(name: str) -> None:
+    slips_of_each_period(name)
+
+
+def slips_of_each_period(name: str, faster: float = 1.0) -> None:
     """A sine just above friction: each half of its period has the slip of the one before."""
     scene, parameters, (most, omega, phase), end, samples = AGAIN[name]
     omega *= faster
@@ -226,6 +230,12 @@ def test_a_slip_is_followed_as_often_as_it_comes_back(name: str, faster: float =
     late = 1e-9  # s: what is 1e-10 above friction has its rounding of 1e-16 for some 1e-11 s
     both = np.array([c.time for c in found]).reshape(-1, 2)
     np.testing.assert_allclose(np.diff(both, axis=0), np.pi / omega, rtol=0, atol=late)
+
+
+def slips_at_several_frequencies(name: str) -> None:
+    """In which of them rounding speaks is the processor's."""
+    for k in range(24):
+        slips_of_each_period(name, 1 + 7e-4 * k)
 
 
 LISTEN = march._Walker._listen
@@ -274,11 +284,10 @@ def test_what_is_not_listened_to_is_seen(mistake: str, monkeypatch: Patch) -> No
     *before, last = planted
     for plant in before:
         monkeypatch.setattr(*plant)
-        test_a_slip_is_followed_as_often_as_it_comes_back(name)
+        slips_of_each_period(name)
     monkeypatch.setattr(*last)
     with pytest.raises(ends, match=words or None):
-        for k in range(24):  # whether rounding speaks in the first is the processor's
-            test_a_slip_is_followed_as_often_as_it_comes_back(name, 1 + 7e-4 * k)
+        slips_at_several_frequencies(name)
 
 
 @pytest.mark.parametrize("samples", [3, 31])
