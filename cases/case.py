@@ -82,12 +82,12 @@ class Case:
         One that is a corner of a law but for rounding is that corner: 0.1 and not 1.2/12, of which
         a double is less than 0.1, and a force that jumps there would act a sample late.
         """
-        found = np.arange(self.samples, dtype=np.float64) * self.interval + self.late
+        times = np.arange(self.samples, dtype=np.float64) * self.interval + self.late
         for corner in {*self.corners, *self.scene.corners()}:
             k = min(self.samples - 1, max(0, round(corner / self.interval)))
-            if abs(found[k] - corner) <= ROUNDED * self.duration:
-                found[k] = corner
-        return found
+            if abs(times[k] - corner) <= ROUNDED * self.duration:
+                times[k] = corner
+        return times
 
     @property
     def quantities(self) -> dict[str, Quantity]:

@@ -30,7 +30,7 @@ class Constraint:
 
     @property
     def rows(self) -> slice:
-        """Its rows of all."""
+        """The slice of its rows among all constraints'."""
         wide = len(self.bounds) if self.bound == "cone" else 0
         return slice(self.first, self.first + 1 + wide)
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from .mistake import CaseError, Mistake, nearest, plain, unseen
+from .mistake import CaseError, Mistake, invisible, nearest, plain
 
 LONGEST = 100  # letters of a name: with a variant's and an ending it has to make a file's name
 SUFFIXES = (".yaml", ".yml")
@@ -18,16 +18,16 @@ def shipped() -> dict[str, Path]:
 
 def of_the_book() -> dict[str, Path]:
     """The case files of the textbook's chapter, by name."""
-    return _in(Path(__file__).parent)
+    return _files_by_name(Path(__file__).parent)
 
 
 def questions() -> dict[str, Path]:
     """The case files that answer what people ask in public, by name."""
-    return _in(Path(__file__).parent / QUESTIONS)
+    return _files_by_name(Path(__file__).parent / QUESTIONS)
 
 
 def is_shipped(file: Path | str) -> bool:
-    """Whether the file is one that comes with the suite: told by its place, for rows ask often."""
+    """Whether the file comes with the suite, decided by its path, which is fast."""
     path, home = Path(file).resolve(), Path(__file__).resolve().parent
     return (
         path.parent in (home, home / QUESTIONS, home / MODELS)
@@ -38,15 +38,15 @@ def is_shipped(file: Path | str) -> bool:
 
 def models() -> dict[str, Path]:
     """The case files of models that come with the suite, by name."""
-    return _in(Path(__file__).parent / MODELS)
+    return _files_by_name(Path(__file__).parent / MODELS)
 
 
-def _in(folder: Path) -> dict[str, Path]:
+def _files_by_name(folder: Path) -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
 
 
 def find(words: Sequence[str]) -> list[Path]:
-    """The file of each word. Raises CaseError that names every word which is none."""
+    """Return the file of each word. Raises CaseError with every word that is no case."""
     case_files, model_files = shipped(), models()
     alike = [*case_files, *model_files]
     paths: list[Path] = []
@@ -86,12 +86,12 @@ def case_name(path: Path, variant: str) -> str:
     return f"{path.stem}.{variant}" if variant else path.stem
 
 
-def misnamed(path: Path) -> Iterator[Mistake]:
+def check_name(path: Path) -> Iterator[Mistake]:
     """Yields the mistake in the file's name, which is the case's name in every report."""
     stem = path.stem
     if len(stem) > LONGEST:
         what = f"has a name of {len(stem)} letters; a case has at most {LONGEST}"
-    elif unseen(stem) or "#" in stem or stem[0] in "=+-@":
+    elif invisible(stem) or "#" in stem or stem[0] in "=+-@":
         what = (
             f"has the name '{plain(stem)}': in the reports `#` begins a comment, and with = + - @ "
             "a spreadsheet begins a formula; rename the file"

@@ -8,7 +8,7 @@ from typing import Any
 
 from .case import Case
 from .fields.number import shown
-from .find import case_name, misnamed
+from .find import case_name, check_name
 from .language.check.check import check
 from .language.check.engines import Engines
 from .language.check.work import too_many_variants, work
@@ -50,32 +50,32 @@ def load_document(
     if not long and (what := too_many_variants(document.data)):  # before any is even looked at
         raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document)
-    mistakes = [*misnamed(path), *document.mistakes, *mistakes, *_hidden(document, variants)]
-    found: dict[str, list[Mistake]] = {}
+    mistakes = [*check_name(path), *document.mistakes, *mistakes, *_check_base(document, variants)]
+    by_variant: dict[str, list[Mistake]] = {}
     cases: list[Case] = []
     for variant, (data, source) in variants.items():
         parsed = parse(data)
         scene = resolve_scene(parsed.file)
         checked = check(parsed, scene, data=document.data, systems=systems, known=engines)
         findings = [*parsed.findings, *checked, *(() if long else work(parsed.file, scene))]
-        found[variant] = [
+        by_variant[variant] = [
             source.mistake(where, what)
             for where, what in findings
             if what != NO_VALUE  # the document has said so
         ]
         cases.append(resolve_case(case_name(path, variant), parsed.file, scene, source, long=long))
-    mistakes += told_once(found)
+    mistakes += merge_mistakes(by_variant)
     if mistakes:
         raise CaseError(mistakes)
     return cases
 
 
-def told_once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
-    """Mistakes of all variants: one that all share once, any other with its variant's name."""
-    shared = set.intersection(*(set(mistakes) for mistakes in found.values()))
+def merge_mistakes(by_variant: Mapping[str, list[Mistake]]) -> list[Mistake]:
+    """Merge the mistakes of all variants: shared ones once, others with their variant's name."""
+    shared = set.intersection(*(set(mistakes) for mistakes in by_variant.values()))
     return [
         m if m in shared else replace(m, what=f"{m.what} (variant {variant!r})")
-        for variant, mistakes in found.items()
+        for variant, mistakes in by_variant.items()
         for m in mistakes
     ]
 
@@ -89,7 +89,7 @@ def told_once(found: Mapping[str, list[Mistake]]) -> list[Mistake]:
 def overlay(
     document: Document, keys: Sequence[str] = OVERLAID
 ) -> tuple[dict[str, tuple[dict[str, Any], Source]], list[Mistake]]:
-    """Returns the variants, and what is wrong with the way in which they are written.
+    """Returns the variants, and the mistakes in how they are written.
 
     The variants are by name ("" where the file has none): the merged data, and the source that
     says where in the file each of their keys is written. keys: which a variant may change.
@@ -142,10 +142,10 @@ def _merged(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def _hidden(
+def _check_base(
     document: Document, variants: Mapping[str, tuple[dict[str, Any], Source]]
 ) -> Iterator[Mistake]:
-    """Mistakes of form in what every variant replaces, which none of them would show.
+    """Mistakes of form in those parts of the base that every variant replaces.
 
     Read with the first variant around them: units, names and `space` may be its own.
     """
@@ -153,7 +153,7 @@ def _hidden(
     replaced = {
         path: value
         for path, value in _leaves({k: v for k, v in document.data.items() if k != "variants"})
-        if all(_at(data, path) is not value for data in (first, *others))
+        if all(_value_at(data, path) is not value for data in (first, *others))
     }
     whole = first
     for path, value in replaced.items():
@@ -169,7 +169,7 @@ def _leaves(data: Mapping[str, Any], path: Path = ()) -> Iterator[tuple[Path, An
         yield from _leaves(value, (*path, key)) if inner else [((*path, key), value)]
 
 
-def _at(data: Any, path: Path) -> Any:
+def _value_at(data: Any, path: Path) -> Any:
     for key in path:
         data = data.get(key) if isinstance(data, dict) else None
     return data

@@ -10,11 +10,11 @@ from pydantic import ValidationError
 
 from .fields.number import NONE
 from .fields.signal import Signal
-from .find import case_name, misnamed
+from .find import case_name, check_name
 from .language.check.work import too_many_variants
 from .language.document import read
 from .language.grammar.model_file import OVERLAID, ControlFile, ModelFile
-from .load import overlay, told_once
+from .load import merge_mistakes, overlay
 from .mistake import NO_VALUE, CaseError, Mistake, Source
 from .model_case import Law, ModelCase, ModelStart, Steps
 
@@ -39,7 +39,7 @@ def load_model(path: FilePath, *, long: bool = False) -> list[ModelCase]:
     if not long and (what := too_many_variants(document.data)):
         raise CaseError([*document.mistakes, document.source.mistake(("variants",), what)])
     variants, mistakes = overlay(document, OVERLAID)
-    mistakes = [*misnamed(path), *document.mistakes, *mistakes]
+    mistakes = [*check_name(path), *document.mistakes, *mistakes]
     by_variant: dict[str, list[Mistake]] = {}
     cases: list[ModelCase] = []
     for variant, (data, source) in variants.items():
@@ -48,7 +48,7 @@ def load_model(path: FilePath, *, long: bool = False) -> list[ModelCase]:
             cases.append(_case(case_name(path, variant), data, source))
         except CaseError as error:
             by_variant[variant] = error.mistakes
-    if mistakes := [*mistakes, *told_once(by_variant)]:
+    if mistakes := [*mistakes, *merge_mistakes(by_variant)]:
         raise CaseError(mistakes)
     return cases
 
@@ -57,8 +57,8 @@ def _case(name: str, data: Mapping[str, Any], source: Source) -> ModelCase:
     try:
         file = ModelFile.model_validate(data, context=NONE)
     except ValidationError as error:
-        told = [(_path(e["loc"]), e["msg"]) for e in error.errors(include_url=False)]
-        mistakes = [source.mistake(path, what) for path, what in told if what != NO_VALUE]
+        errors = [(_path(e["loc"]), e["msg"]) for e in error.errors(include_url=False)]
+        mistakes = [source.mistake(path, what) for path, what in errors if what != NO_VALUE]
         raise CaseError(mistakes) from None
     control = file.control
     start = file.initial

@@ -15,14 +15,14 @@ MANY = 60  # words that are compared letter by letter
 _JOINERS = "\u00ad\u200c\u200d"  # not printable to Python, and part of how words are written
 
 
-def unseen(text: str) -> str | None:
+def invisible(text: str) -> str | None:
     """The first character that would steer a terminal or hide what follows, or None."""
     return next((c for c in text if not (c.isprintable() or c in _JOINERS)), None)
 
 
 def plain(text: str) -> str:
     """The text with such characters written out, as \\x1b."""
-    return "".join(c if unseen(c) is None else c.encode("unicode_escape").decode() for c in text)
+    return "".join(c if invisible(c) is None else c.encode("unicode_escape").decode() for c in text)
 
 
 @dataclass(frozen=True, order=True)
@@ -44,7 +44,7 @@ class Mistake:
             return head
         start = max(0, self.column - 60) if len(self.text) > 100 else 0  # a window on a long line
         window = self.text[start : start + 100]
-        line = "".join(c if unseen(c) is None else " " for c in window)  # the caret stays below
+        line = "".join(c if invisible(c) is None else " " for c in window)  # the caret stays below
         return f"{head}\n    {line}\n    {' ' * (self.column - 1 - start)}^"
 
 
@@ -60,8 +60,8 @@ class CaseError(Exception):
 
 
 def _lines(mistakes: Sequence[Mistake]) -> Iterator[str]:
-    for file, found in groupby(mistakes, key=lambda mistake: mistake.file):
-        all_ = [*found]
+    for file, group in groupby(mistakes, key=lambda mistake: mistake.file):
+        all_ = [*group]
         yield from map(str, all_[:SHOWN])
         if len(all_) > SHOWN:
             yield f"{plain(file)}: and {len(all_) - SHOWN} more"
@@ -91,16 +91,16 @@ def nearest(word: str, words: Iterable[str]) -> str:
     # To compare two words thoroughly takes long: of very many those that begin or end alike.
     alike = known if len(known) <= MANY else nlargest(MANY, known, key=partial(_ends_alike, word))
     close = get_close_matches(word, alike, n=1, cutoff=0.6)
-    return f"; did you mean {close[0]!r}?" if close else listed(known)
+    return f"; did you mean {close[0]!r}?" if close else list_hint(known)
 
 
 def _ends_alike(word: str, other: str) -> int:
-    """How many of some beginnings and ends two words share, less what one is longer."""
+    """A measure of how alike the beginnings and ends of two words are."""
     begins = (word[:1] == other[:1]) + (word[:3] == other[:3]) + (word[:6] == other[:6])
     ends = (word[-1:] == other[-1:]) + (word[-3:] == other[-3:]) + (word[-6:] == other[-6:])
     return 4 * (begins + ends) - abs(len(word) - len(other))
 
 
-def listed(words: Sequence[str]) -> str:
-    """A hint: what there is, or nothing where that is too much to read."""
+def list_hint(words: Sequence[str]) -> str:
+    """A hint that lists the words, or nothing if they are too many."""
     return f"; known: {', '.join(words)}" if 0 < len(words) <= 12 else ""

@@ -24,22 +24,22 @@ OPENING = {"normal", "gap"}  # what is zero while nothing touches, or while some
 
 
 def themes(case: Case) -> tuple[str, ...]:
-    """In the order of THEMES; a case that is about none of the others is about its joints."""
+    """The themes of a case, in the order of THEMES; `pins` if no other applies."""
     scene = case.scene
     words = {force.word for force in scene.forces.values()}
     contacts = scene.contacts.values()
-    found = {
+    applies = {
         "loops": _loops(scene),
         "springs": bool(words & ELASTIC),
         "rolling": bool(scene.constraints) or any(c.ideal == "rolling" for c in contacts),
         "friction": _dry(scene) or any(c.switches and c.static > 0.0 for c in contacts),
         "impacts": _strikes(case),
         "drag": bool(words & VISCOUS),
-        "driven": bool(words & GIVEN) or bool(scene.drives) or _moved(scene),
+        "driven": bool(words & GIVEN) or bool(scene.drives) or _has_moved_point(scene),
         "space": scene.frame.dimension == 3,
         "states": case.states is not None,
     }
-    chosen = tuple(name for name in THEMES if found.get(name))
+    chosen = tuple(name for name in THEMES if applies.get(name))
     return (
         chosen
         if set(chosen) - {"driven", "space"}
@@ -68,7 +68,7 @@ def _dry(scene: Scene) -> bool:
     return any(getattr(joint, "dry_friction", None) for joint in scene.joints.values())
 
 
-def _moved(scene: Scene) -> bool:
+def _has_moved_point(scene: Scene) -> bool:
     return any(point.driven for point in scene.points.values())
 
 

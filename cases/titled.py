@@ -23,7 +23,7 @@ class Titled:
 
 
 def titled(path: Path) -> list[Titled]:
-    """The cases of a file that is known to be sound, of which no more is read than a list says.
+    """Read only titles and sources of a file's cases, which is known to be sound.
 
     Raises CaseError for what `load` finds, where that much cannot be read.
     """

@@ -13,7 +13,7 @@ from ..cases.case import Case
 from ..cases.fields.kind import WORK
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene import Contact
-from ..cases.scene.difference import apart
+from ..cases.scene.difference import deviation
 from ..cases.scene.frame import PLANE, SPACE
 from ..cases.scene.islands import islands
 from ..cases.scene.observe import motion_of, observe
@@ -352,7 +352,7 @@ def _floor(case: Case, unit: str) -> float:
 
 def _range(samples: Array) -> float:
     """The range of a quantity; of an attitude, its largest turn from the first."""
-    return float(np.ptp(samples) if samples.ndim == 1 else np.max(apart(samples, samples[:1])))
+    return float(np.ptp(samples) if samples.ndim == 1 else np.max(deviation(samples, samples[:1])))
 
 
 def _blow_work(case: Case, motion: Trajectory) -> Iterator[Mistake]:

@@ -13,7 +13,7 @@ from ..cases.case import Case
 from ..cases.fields.kind import RESERVED
 from ..cases.scene import Scene
 from ..cases.scene.frame import SPACE
-from ..cases.scene.islands import apart
+from ..cases.scene.islands import solved_scenes
 from ..cases.scene.quantity import table
 from ..cases.trajectory import Array, Trajectory
 from .certificate.agreement import Check, gravest, worst
@@ -40,7 +40,7 @@ class Island:
 
 def parts(case: Case) -> tuple[Case, ...]:
     """The case of each island; the case itself where all hangs or is looked at together."""
-    scenes = apart(case.scene, case.system, case.events)
+    scenes = solved_scenes(case.scene, case.system, case.events)
     if len(scenes) == 1:
         return (case,)
     corners = (*case.scene.corners(),)

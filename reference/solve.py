@@ -17,7 +17,7 @@ import scipy
 from ..cases.case import Case
 from ..cases.mistake import CaseError, Mistake
 from ..cases.scene.frame import SPACE
-from ..cases.scene.quantity import table, told_by
+from ..cases.scene.quantity import needed_by_events, table
 from ..cases.trajectory import Trajectory
 from .assumptions import check_premises, check_start, pressed
 from .certificate.agreement import Check
@@ -229,7 +229,7 @@ def _accelerations(case: Case) -> bool:
 def _felt(case: Case) -> bool:
     """Whether an event is defined by a force, or a force asked for at an event."""
     known = table(case.scene)
-    return any(known[name].kind == "force" for name in told_by(case.events, case.allow))
+    return any(known[name].kind == "force" for name in needed_by_events(case.events, case.allow))
 
 
 # Linear algebra on one thread: matrices here are small, and threads wait for each other.

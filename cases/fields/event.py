@@ -22,5 +22,5 @@ class Event:
         return self.rule in ("falls to zero", "rises to zero")
 
     def falling(self, samples: Array) -> Array:
-        """(N,) what falls to zero where the quantity crosses; what rests, as it is."""
+        """(N,) a function of the samples that falls to zero where the quantity crosses."""
         return self.value - samples if self.rule == "rises to zero" else samples - self.value

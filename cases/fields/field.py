@@ -57,19 +57,19 @@ class In(Plain):
     why: str = ""
 
     def check(self, value: object, known: Names) -> float:
-        found = number(value, self.unit, known)
-        if found is None:
+        amount = number(value, self.unit, known)
+        if amount is None:
             return float("nan")
         by_name = f" ({value})" if isinstance(value, str) else ""
-        if self.above is not None and not found.value > self.above:
-            why = "" if found.value else self.why
-            raise NumberMistake(f"must be positive, is {found.value:g}{by_name}{why}")
-        if self.least is not None and not found.value >= self.least:
+        if self.above is not None and not amount.value > self.above:
+            why = "" if amount.value else self.why
+            raise NumberMistake(f"must be positive, is {amount.value:g}{by_name}{why}")
+        if self.least is not None and not amount.value >= self.least:
             what = f"must be at least {self.least:g}" if self.least else "must not be negative"
-            raise NumberMistake(f"{what}, is {found.value:g}{by_name}")
-        if self.most is not None and not found.value <= self.most:
-            raise NumberMistake(f"must be at most {self.most:g}, is {found.value:g}{by_name}")
-        return found.value
+            raise NumberMistake(f"{what}, is {amount.value:g}{by_name}")
+        if self.most is not None and not amount.value <= self.most:
+            raise NumberMistake(f"must be at most {self.most:g}, is {amount.value:g}{by_name}")
+        return amount.value
 
     def schema(self) -> dict[str, Any]:
         literal: dict[str, Any] = {"type": "number"}
@@ -121,15 +121,15 @@ class Coefficients(Plain):
             raise NumberMistake(f"should be a list [c0, c1, …], is {shown(value)}")
         if not value:
             raise NumberMistake("should not be empty")
-        found = []
+        coefficients = []
         for k, entry in enumerate(value):
             unit = None if self.unit is None else per_second(self.unit, k)
             try:
                 amount = number(entry, unit, known) or Amount(float("nan"))
             except NumberMistake as mistake:
                 raise NumberMistake(f"coefficient {k} {mistake}") from None
-            found.append(amount if self.unit is None else amount.value)
-        return tuple(found)
+            coefficients.append(amount if self.unit is None else amount.value)
+        return tuple(coefficients)
 
     def schema(self) -> dict[str, Any]:
         literal = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": NUMBER}
@@ -158,10 +158,10 @@ class Bound(Plain):
     def check(self, value: object, known: Names) -> Amount | None:
         if self.word is not None and value == self.word:
             return None
-        found = number(value, None, known) or Amount(float("nan"))
-        if found.value <= 0:
-            raise NumberMistake(f"must be positive, is {found.value:g}")
-        return found
+        bound = number(value, None, known) or Amount(float("nan"))
+        if bound.value <= 0:
+            raise NumberMistake(f"must be positive, is {bound.value:g}")
+        return bound
 
     def schema(self) -> dict[str, Any]:
         what = "in the quantity's unit" + (f", or `{self.word}`" if self.word else "")

@@ -107,20 +107,20 @@ def names(parameters: object) -> Names:
 def amount(value: object, known: Names = NONE) -> Amount:
     """A literal or a quantity with its unit, in SI; known: what else a formula may name."""
     if isinstance(value, int | float) and not isinstance(value, bool):
-        return Amount(_sized(float(value), value))
+        return Amount(_check_size(float(value), value))
     short = isinstance(value, str) and len(value) <= SHORT
     if short and (match := _QUANTITY.fullmatch(str(value))):
-        return _measured(float(match[1]), match[2], str(value))
+        return _amount_with_unit(float(match[1]), match[2], str(value))
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
     text = str(value).strip() if short else ""
     if _formula(text) and all(word == "pi" or word in known.amounts for word in _words(text)):
-        raise NumberMistake(f"{value!r} is not computed: write {_computed(text, known)}")
+        raise NumberMistake(f"{value!r} is not computed: write {_suggestion(text, known)}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
 
 
-def named_in(text: str, parameters: Collection[str]) -> set[str]:
-    """The parameters that a text names: as a number, as `-name`, or in a formula, which is none."""
+def parameters_in(text: str, parameters: Collection[str]) -> set[str]:
+    """The parameters that a text names: as a number, as `-name`, or in a formula."""
     whole = not _formula(text) or _QUANTITY.fullmatch(text)
     words = [text.removeprefix("-")] if whole else _words(text)
     return {word for word in words if word in parameters}
@@ -135,69 +135,69 @@ def _words(formula: str) -> list[str]:
     return [part for part in parts if _NAME.fullmatch(part)]
 
 
-def _computed(formula: str, known: Names) -> str:
-    """The words for what to write instead: of two numbers what they make."""
+def _suggestion(formula: str, known: Names) -> str:
+    """The value to write in place of a formula, in words; only of two numbers is it computed."""
     of_two = _OF_TWO.fullmatch(formula)
     x, y = (_operand(word, known) for word in of_two.group(1, 3)) if of_two else (None, None)
     if of_two is None or x is None or y is None or (of_two[2] == "/" and not y):
         return "the number"
-    found = _OPERATORS[of_two[2]](x, y)
-    if not math.isfinite(found):
+    result = _OPERATORS[of_two[2]](x, y)
+    if not math.isfinite(result):
         return "the number"
-    angle = f", or {math.degrees(found):g} deg" if "pi" in of_two.group(1, 3) else ""
-    return f"{found:.10g}{angle}"
+    angle = f", or {math.degrees(result):g} deg" if "pi" in of_two.group(1, 3) else ""
+    return f"{result:.10g}{angle}"
 
 
 def _operand(word: str, known: Names) -> float | None:
     """The value of a number, a parameter or pi; None of a parameter that is itself mistaken."""
     if not (words := _words(word)):
         return float(word)
-    found = Amount(math.pi) if words == ["pi"] else known.amounts[words[0]]
-    return None if found is None else -found.value if word.startswith("-") else found.value
+    operand = Amount(math.pi) if words == ["pi"] else known.amounts[words[0]]
+    return None if operand is None else -operand.value if word.startswith("-") else operand.value
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
-    """Any number of the language, in SI; None where it is mistaken, or names what is."""
+    """Parse any number of the language, in SI; None where it, or its parameter, is mistaken."""
     if value is MISTAKEN:
         return None
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):
-        return turned(fitting(amount(value, known), unit), unit)
+        return check_angle(check_unit(amount(value, known), unit), unit)
     if not known.amounts:
         raise NumberMistake(f"should be a number, is {shown(value)}")
     if name not in known.amounts:
         raise NumberMistake(f"unknown parameter {name!r}{nearest(name, known.amounts)}")
-    found = known.amounts[name]
-    if found is None:
+    entry = known.amounts[name]
+    if entry is None:
         return None
     sign = -1.0 if value.startswith("-") else 1.0
-    as_typed = found.text or f"{found.value:g}"
+    as_typed = entry.text or f"{entry.value:g}"
     if sign < 0.0:
         as_typed = as_typed[1:] if as_typed.startswith("-") else f"-{as_typed}"
     text = f"{value} = {as_typed}"
-    return turned(fitting(Amount(sign * found.value, found.dimension, text), unit), unit)
+    return check_angle(check_unit(Amount(sign * entry.value, entry.dimension, text), unit), unit)
 
 
-def turned(found: Amount, unit: str | None) -> Amount:
-    """The amount; of an angle above one turn it is asked whether it is one in degrees."""
-    if unit == "rad" and found.dimension is None and abs(found.value) > TURN:
+def check_angle(given: Amount, unit: str | None) -> Amount:
+    """Return the amount. Raises NumberMistake for a plain angle of more than one turn."""
+    if unit == "rad" and given.dimension is None and abs(given.value) > TURN:
         raise NumberMistake(
-            f"is {found.text or f'{found.value:g}'} rad, which is {found.value / TURN:.2g} turns: "
-            f"write {found.value:g} deg, or {found.value:g} rad"
+            f"is {given.text or f'{given.value:g}'} rad, which is {given.value / TURN:.2g} turns: "
+            f"write {given.value:g} deg, or {given.value:g} rad"
         )
-    return found
+    return given
 
 
-def fitting(found: Amount, unit: str | None) -> Amount:
-    """The amount, if it can be measured in `unit` (None: in anything)."""
-    if unit is None or found.dimension is None or found.dimension == _dimension(unit):
-        return found
-    if found.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
-        return found
+def check_unit(given: Amount, unit: str | None) -> Amount:
+    """Return the amount. Raises NumberMistake unless `unit` (None: any) fits it."""
+    if unit is None or given.dimension is None or given.dimension == _dimension(unit):
+        return given
+    if given.dimension == _without_angle(_dimension(unit)):  # a radian is 1: N m for N m/rad
+        return given
     wanted = "a plain number" if unit == "1" else unit
     turns = "[angle]" in _dimension(unit) or unit == "1"
-    counts = turns and "[frequency]" in found.dimension
+    counts = turns and "[frequency]" in given.dimension
     hint = "; Hz may count turns or radians: write rpm or rad/s" if counts else ""
-    raise NumberMistake(f"is {found.text!r}, but {wanted} was expected{hint}")
+    raise NumberMistake(f"is {given.text!r}, but {wanted} was expected{hint}")
 
 
 def per_second(unit: str, times: int) -> str:
@@ -212,23 +212,23 @@ def per_second(unit: str, times: int) -> str:
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def _measured(value: float, unit: str, text: str) -> Amount:
+def _amount_with_unit(value: float, unit: str, text: str) -> Amount:
     converted = _quantity(value, unit)
-    size = _sized(float(converted.magnitude), repr(text))
+    size = _check_size(float(converted.magnitude), repr(text))
     return Amount(size, str(converted.dimensionality), text)
 
 
-def _sized(value: float, said: object) -> float:
-    """The value, if it can be computed with."""
+def _check_size(value: float, text: object) -> float:
+    """Return the value. Raises NumberMistake unless it is finite and of a sensible size."""
     if not math.isfinite(value):
-        raise NumberMistake(f"must be finite, is {said}")
+        raise NumberMistake(f"must be finite, is {text}")
     if value and not SMALLEST <= abs(value) <= LARGEST:
-        raise NumberMistake(f"must be 0 or from {SMALLEST:g} to {LARGEST:g} in SI, is {said}")
+        raise NumberMistake(f"must be 0 or from {SMALLEST:g} to {LARGEST:g} in SI, is {text}")
     return value
 
 
 def _without_angle(dimension: str) -> str:
-    """The dimension of what has a mass, without its angle; else empty: 1/s may be of turns."""
+    """The dimension without its angle if it has a mass; else empty, as 1/s may count turns."""
     return re.sub(r" [*/] \[angle\]", "", dimension) if "[mass]" in dimension else ""
 
 
@@ -243,19 +243,19 @@ def _quantity(value: float, unit: str) -> Any:
         return registry.Quantity(value, registry.parse_units(unit)).to_base_units()
     except (AttributeError, ValueError):  # pint's UndefinedUnitError, and its word for `nan`
         words = re.findall(r"[A-Za-zµμ°]+", unit)
-        apart = _apart(words[0]) if len(words) == 1 else ()
+        units = _split_units(words[0]) if len(words) == 1 else ()
         # grams come first: kgg is a slip
-        hint = f"; did you mean {' '.join(apart)!r}?" if apart and "g" not in apart[1:] else ""
+        hint = f"; did you mean {' '.join(units)!r}?" if units and "g" not in units[1:] else ""
         hint = hint or (nearest(words[0], _KNOWN) if len(words) == 1 else "")
         raise NumberMistake(f"unknown unit {unit!r}{hint}") from None
 
 
-def _apart(word: str) -> tuple[str, ...]:
-    """Units that were written together, as Nm; none where it is no such word."""
+def _split_units(word: str) -> tuple[str, ...]:
+    """Split a word such as Nm into its units; empty if it is not made of known units."""
     for known in sorted(_KNOWN, key=len):
         if word == known:
             return (known,)
-        if word.startswith(known) and (rest := _apart(word.removeprefix(known))):
+        if word.startswith(known) and (rest := _split_units(word.removeprefix(known))):
             return known, *rest
     return ()
 

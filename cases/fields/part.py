@@ -110,7 +110,7 @@ class OneOf:
 
 
 def _by_key(choice: OneOf) -> Discriminator:
-    """By one key, so that a mistake is told of the model that was meant."""
+    """Choose the model by the key that only it has, so that mistakes are about that model."""
     words = list(choice.models)
 
     def tag(value: object) -> str | None:

@@ -45,8 +45,8 @@ class Signal:
         if self.law == "ramp":
             return replace(self, law="polynomial", values=(by, 1.0))
         if self.law == "polynomial":
-            moved = np.polynomial.Polynomial(self.values)(np.polynomial.Polynomial([by, 1.0]))
-            return replace(self, values=tuple(moved.coef.tolist()))
+            shifted = np.polynomial.Polynomial(self.values)(np.polynomial.Polynomial([by, 1.0]))
+            return replace(self, values=tuple(shifted.coef.tolist()))
         phase = self.phase + self.angular_frequency * by
         return replace(self, phase=phase, times=tuple(t - by for t in self.times))
 

@@ -207,8 +207,8 @@ def law_fields(
         "constant": size,
         "ramp": _amount(unit and per_second(unit, 1), axes),
     }
-    for word, (base, asked) in numbers.items():
-        fields: dict[str, Any] = {key: (kind, ...) for key, kind in asked.items()}
+    for word, (base, types) in numbers.items():
+        fields: dict[str, Any] = {key: (kind, ...) for key, kind in types.items()}
         fields |= along if word in ("polynomial", "table") else {}
         kinds[word] = create_model(
             f"{title}{word.capitalize()}", __base__=base, __doc__=base.__doc__, **fields

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ..mistake import nearest, plain, unseen
+from ..mistake import invisible, nearest, plain
 from .field import Plain
 from .kind import RESERVED
 from .number import Names, shown
@@ -27,7 +27,7 @@ class Text(Plain):
             empty = isinstance(value, str)
             raise wrong("should not be empty" if empty else f"should be text, is {shown(value)}")
         value = value.rstrip("\n")  # what a block of YAML ends with
-        if (hidden := unseen(value)) is not None:
+        if (hidden := invisible(value)) is not None:
             raise wrong(f"should be one line of text, has the character {plain(hidden)}")
         if what := self.rule(value):
             raise wrong(what)

@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from ..mistake import NO_VALUE, SHOWN, listed, nearest
+from ..mistake import NO_VALUE, SHOWN, list_hint, nearest
 from .number import shown
 
 _SHAPES = {
@@ -49,20 +49,20 @@ def in_words(
         )
         for e in errors
         if not (e["type"] == "missing" and e["loc"][-1] in misspelt)
-        for loc, what in _said(e, keys, hints, lengths, elsewhere)
+        for loc, what in _translate(e, keys, hints, lengths, elsewhere)
     ]
     return ValidationError.from_exception_data(error.title, details)
 
 
 def _unknown(error: Mapping[str, Any], keys: Sequence[str]) -> bool:
-    """Where any other key may name a point, what is no place [x, y] is a misspelt key."""
+    """Whether a key is unknown; one that may name a point is, unless it has a place [x, y]."""
     loc = error["loc"]
     if len(loc) != 1 or loc[0] in keys:
         return False
     return error["type"] in ("extra_forbidden", "tuple_type")
 
 
-def _said(
+def _translate(
     error: Mapping[str, Any],
     keys: Sequence[str],
     hints: Mapping[Any, str],
@@ -80,7 +80,7 @@ def _said(
         yield loc, f"unknown key {loc[0]!r}; {elsewhere[loc[0]]}"
     elif _unknown(error, keys):
         close = hints.get(loc[0], "")
-        yield loc, f"unknown key {loc[0]!r}{close if 'did you mean' in close else listed(keys)}"
+        yield loc, f"unknown key {loc[0]!r}{close if 'did you mean' in close else list_hint(keys)}"
     elif kind == "choice":
         yield from _choice(loc, value, **context)
     elif kind == "missing":

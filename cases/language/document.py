@@ -40,11 +40,11 @@ class Document:
 
 
 def read(path: FilePath, *, only: Collection[str] = ()) -> Document:
-    """The file's data, or CaseError where nothing sensible can be read from it.
+    """Read the file's data. Raises CaseError where nothing sensible can be read from it.
 
     only: the keys at its margin to read, where not all are asked for, in a quarter of the time.
     """
-    return _parsed(str(path), _only(_text(path), only) if only else _text(path))
+    return _parsed(str(path), _blank_others(_text(path), only) if only else _text(path))
 
 
 @lru_cache(AT_HAND)
@@ -52,15 +52,15 @@ def _parsed(file: str, text: str) -> Document:
     """Parses the text; that is most of what reading costs, and a test session reads twice."""
     lines = tuple(BREAK.split(text)[::2])
     if either := EITHER.search(text):
-        raise CaseError([_unclear(file, lines, text, either.start())])
+        raise CaseError([_ambiguous_break(file, lines, text, either.start())])
     tree = Tree(file, lines)
     try:
         data = tree.document(YAML(typ="safe", pure=True).parse(text))
     except ReaderError as error:
         line, column = _end(text[: error.position])
         what = f"the character {plain(text[error.position])} cannot stand in YAML"
-        shown = lines[line - 1] if line <= len(lines) else ""
-        raise CaseError([Mistake(file, line, column, "", what, shown)]) from None
+        source_line = lines[line - 1] if line <= len(lines) else ""
+        raise CaseError([Mistake(file, line, column, "", what, source_line)]) from None
     except YAMLError as error:
         raise CaseError([tree.unreadable(error)]) from None
     except (ValueError, OverflowError) as error:  # ruamel on an escape such as "\U99999999"
@@ -71,20 +71,20 @@ def _parsed(file: str, text: str) -> Document:
     return Document(Source(file, lines, tree.places), data, tree.mistakes)
 
 
-def _unclear(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
-    """ruamel counts lines without it, and ends comments with it."""
+def _ambiguous_break(file: str, lines: tuple[str, ...], text: str, at: int) -> Mistake:
+    """The mistake of a line break that ruamel counts in comments only."""
     line, column = _end(text[:at])
     what = f"the character {plain(text[at])} ends a line for some and not for others: leave it out"
     return Mistake(file, line, column, "", what, lines[line - 1])
 
 
-def _only(text: str, keys: Collection[str]) -> str:
-    """Nothing stands on the lines of other keys: places stay what they are."""
-    kept, parts = True, BREAK.split(text)
+def _blank_others(text: str, keys: Collection[str]) -> str:
+    """Blank the lines of all other keys, so that places stay the same."""
+    keep, parts = True, BREAK.split(text)
     for k in range(0, len(parts), 2):
         if parts[k][:1].strip(" \t#"):
-            kept = parts[k].partition(":")[0] in keys
-        parts[k] = parts[k] if kept else ""
+            keep = parts[k].partition(":")[0] in keys
+        parts[k] = parts[k] if keep else ""
     return "".join(parts)
 
 
@@ -114,7 +114,7 @@ def _text(path: FilePath) -> str:
 
 
 def _end(text: str) -> tuple[int, int]:
-    """Line and column, from 1, of what would follow the text."""
+    """Line and column, from 1, just after the end of the text."""
     lines = BREAK.split(text)[::2]
     return len(lines), len(lines[-1]) + 1
 
@@ -225,9 +225,9 @@ class Tree:
                 first = self.places[place][0]
                 what = f"duplicate key {key!r}, already on line {first}"
                 self.mistakes.append(self.at(event.start_mark, place, what))
-                said = len(self.mistakes)
+                count = len(self.mistakes)
                 self.node(next(events), events, (*path, f"{key} (again)"))
-                del self.mistakes[said:]  # it has to go as a whole
+                del self.mistakes[count:]  # it has to go as a whole
                 continue
             self.places[place] = (event.start_mark.line + 1, event.start_mark.column + 1)
             data[key] = self.node(next(events), events, place)

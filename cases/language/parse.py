@@ -88,14 +88,14 @@ def parse(data: Mapping[str, Any]) -> Parsed:
             return Parsed(file, tuple(findings), frozenset(broken))
         except ValidationError as error:
             first = not broken
-            for found in error.errors(include_url=False):
-                path = _path(found["loc"])
-                what = found["msg"]
+            for detail in error.errors(include_url=False):
+                path = _path(detail["loc"])
+                what = detail["msg"]
                 if deep := _too_deep(path, data):
                     path, what = deep
                     broken.add(path[-1:])  # what it holds may be meant elsewhere
                 # Of a parameter it is known already: what names it is as a wrong number is here.
-                if first and found.get("ctx", {}).get("number") and path[0] != "parameters":
+                if first and detail.get("ctx", {}).get("number") and path[0] != "parameters":
                     rest, there = _without_number(rest, path)
                     if there:
                         findings.append((path, what))
@@ -127,7 +127,7 @@ def _path(loc: tuple[str | int, ...]) -> Path:
 
 
 def _too_deep(path: Path, data: Mapping[str, Any]) -> Finding | None:
-    """Where a section stands that belongs beside `scene`, if the mistake is there or just below."""
+    """The path and mistake of a section in `scene` that belongs beside it, or None."""
     for k in (1, 2):  # in another section, or in one of the scene's
         if len(path) in (k + 1, k + 2) and path[k] in _BESIDE and path[k] not in data:
             return path[: k + 1], f"{path[k]!r} stands beside `scene`, at the file's margin"
@@ -135,7 +135,7 @@ def _too_deep(path: Path, data: Mapping[str, Any]) -> Finding | None:
 
 
 def _without_number(data: Any, path: tuple[Any, ...]) -> tuple[Any, bool]:
-    """The data with nothing known of one number, and whether there is one to be replaced."""
+    """The data with one number marked as mistaken, and whether there is such a number."""
     if not path:
         return MISTAKEN, data is not MISTAKEN and not isinstance(data, dict | tuple | list)
     key, *others = path

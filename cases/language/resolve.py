@@ -21,12 +21,12 @@ def resolve_scene(file: File) -> Scene:
     """The scene, with its references as they stand (check/links.py checks them)."""
     s: Any = file.scene
     in_space = s.space is not None
-    bodies, planes = _named(s.bodies), {} if in_space else _named(s.planes)
+    bodies, planes = _by_name(s.bodies), {} if in_space else _by_name(s.planes)
     pairs = {} if in_space else {n: c for n, c in s.contacts.items() if c.pairs(bodies)}
-    joints, contacts = _named(s.joints), {n: c for n, c in s.contacts.items() if n not in pairs}
+    joints, contacts = _by_name(s.joints), {n: c for n, c in s.contacts.items() if n not in pairs}
     if in_space:
         starts = {**file.near, **file.initial}
-        joints = {name: _begun(joint, starts.get(name)) for name, joint in joints.items()}
+        joints = {name: _with_start(joint, starts.get(name)) for name, joint in joints.items()}
         down, slope = (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
     else:
         down, slope = (0.0, 0.0 if s.seen else -1.0), (1.0, 0.0)
@@ -36,22 +36,22 @@ def resolve_scene(file: File) -> Scene:
         bodies=bodies,
         joints=joints,
         contacts={n: contact.named(n, bodies, planes) for n, contact in contacts.items()},
-        forces=_named(s.forces),
-        constraints=_named(s.constraints),
+        forces=_by_name(s.forces),
+        constraints=_by_name(s.constraints),
         drives={rate: drive.signal for rate, drive in s.drive.items()},
         pairs={n: contact.paired(n) for n, contact in pairs.items()},
         frame=SPACE if in_space else PLANE,
     )
 
 
-def _begun(joint: Joint, start: Any) -> Joint:
-    """With the angles of the start, near which turns in space are counted."""
+def _with_start(joint: Joint, start: Any) -> Joint:
+    """The joint with its start angles, from which turns in space are counted."""
     given = {} if start is None else start.given
     turns = [turn.name for turn in joint.turns if turn.name in given]
     return replace(joint, begins={name: given[name] for name in turns})
 
 
-def _named(elements: Mapping[str, Any]) -> dict[str, Any]:
+def _by_name(elements: Mapping[str, Any]) -> dict[str, Any]:
     return {name: element.named(name) for name, element in elements.items()}
 
 
@@ -73,7 +73,7 @@ def resolve_case(name: str, file: File, scene: Scene, source: Source, *, long: b
         parameters={name: amount.value for name, amount in file.parameters.items()},
         drops_out=file.drops_out,
         scene=scene,
-        initial=_turned(_placements(file.initial, scene), scene, file.events),
+        initial=_with_free_attitudes(_placements(file.initial, scene), scene, file.events),
         near=_placements(file.near, scene),
         duration=file.duration if states is None else states.random - 1.0,
         samples=file.samples if states is None else states.random,
@@ -129,10 +129,10 @@ def _placements(places: Mapping[str, Any], scene: Scene) -> dict[str, Placement]
     }
 
 
-def _turned(
+def _with_free_attitudes(
     starts: dict[str, Placement], scene: Scene, events: Mapping[str, Mapping[str, Any]]
 ) -> dict[str, Placement]:
-    """With the attitude 0 of each disk or sphere that gives none, if nothing depends on it."""
+    """The starts, with attitude 0 for each disk or sphere whose attitude changes nothing."""
     in_space = scene.frame is not PLANE
     marks = [name.split(".", 1) for rules in events.values() for name in rules]
     joints = [
@@ -140,28 +140,28 @@ def _turned(
         for joint in scene.joints.values()
         if [joint.name, "angle"] in marks or not _turns_alike(joint, starts, scene)
     ]
-    held = {at.body for joint in joints for at in joint.refers()}
-    held |= {part for part, field in marks if field == "angle" or "." in field}  # of a point
-    marked = (
+    oriented = {at.body for joint in joints for at in joint.refers()}
+    oriented |= {part for part, field in marks if field == "angle" or "." in field}  # of a point
+    elements = (
         *scene.constraints.values(),
         *scene.forces.values(),
         *scene.contacts.values(),
         *scene.joints.values(),
     )
-    held |= {at.body for one in marked for at in one.refers() if at.point != CENTER}
-    held |= {one.at.body for one in scene.constraints.values()}
-    axed = (force for force in scene.forces.values() if getattr(force, "along", None))
-    held |= {at.body for force in axed for at in force.refers()}
+    oriented |= {at.body for element in elements for at in element.refers() if at.point != CENTER}
+    oriented |= {element.at.body for element in scene.constraints.values()}
+    directed = (force for force in scene.forces.values() if getattr(force, "along", None))
+    oriented |= {at.body for force in directed for at in force.refers()}
     shape = "sphere" if in_space else "disk"  # each looks alike however it is turned
-    free = (b.name for b in scene.bodies.values() if b.shape == shape and b.name not in held)
-    found = dict(starts)
+    free = (b.name for b in scene.bodies.values() if b.shape == shape and b.name not in oriented)
+    placements = dict(starts)
     for name in free:
         place = starts.get(name, Placement())
         if in_space and place.attitude is None and not place.points:
-            found[name] = replace(place, attitude=UPRIGHT)
+            placements[name] = replace(place, attitude=UPRIGHT)
         elif not (in_space or "angle" in place.given or place.points or place.on):
-            found[name] = replace(place, given={**place.given, "angle": 0.0})
-    return found
+            placements[name] = replace(place, given={**place.given, "angle": 0.0})
+    return placements
 
 
 def _turns_alike(joint: Joint, starts: Mapping[str, Placement], scene: Scene) -> bool:
@@ -173,13 +173,13 @@ def _turns_alike(joint: Joint, starts: Mapping[str, Placement], scene: Scene) ->
     given = starts.get(joint.name, Placement())
     winds = any(force.winds for force in scene.forces.values() if force.about == joint.name)
     driven = any(quantity.startswith(f"{joint.name}.") for quantity in scene.drives)
-    said = given.attitude is not None or any(turn.name in given.given for turn in joint.turns)
+    has_start = given.attitude is not None or any(turn.name in given.given for turn in joint.turns)
     turning = {"turn"} if scene.frame is PLANE else {"ball"}
-    return turning <= kinds <= {*turning, "swing"} and not (said or winds or driven)
+    return turning <= kinds <= {*turning, "swing"} and not (has_start or winds or driven)
 
 
 def _polar(given: tuple[str, float, float] | None, scene: Scene) -> dict[str, float]:
-    """x and y of what is so far from where a point of the ground starts, in such a direction."""
+    """x and y from polar coordinates about a point of the ground."""
     if given is None or (point := anchor(given[0]).point) not in scene.points:
         return {}  # the latter is a mistake, see check/start.py
     (x, y, *_), (_, length, direction) = scene.points[point].state(0.0), given

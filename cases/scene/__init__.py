@@ -31,7 +31,7 @@ from .forces.force import (
     Torsion,
     TorsionDamper,
     Viscous,
-    of,
+    of_kind,
 )
 from .frame import PLANE, Frame
 from .joint import Joint, planar_joint
@@ -72,7 +72,7 @@ __all__ = [
     "TorsionDamper",
     "Vector",
     "Viscous",
-    "once",
+    "cached_by_scene",
     "planar_joint",
 ]
 
@@ -109,17 +109,17 @@ class Scene:
                     raise ValueError(f"{name!r} is not of the scene's frame, {self.frame.name}")
 
     def __getstate__(self) -> dict[str, object]:
-        """The fields alone: what was made of them (`once`) is made anew."""
+        """The fields without cached results (`cached_by_scene`), which are computed anew."""
         return {of.name: getattr(self, of.name) for of in fields(self)}
 
     def driven(self) -> Mapping[str, Fields]:
         """By joint, what prescribed rates exert: `hinge` → `torque`."""
-        found: dict[str, Fields] = {}
+        efforts: dict[str, Fields] = {}
         for quantity in self.drives:
             part, _, rate = quantity.rpartition(".")
             if part in self.joints and (freedom := self.joints[part].rates.get(rate)):
-                found[part] = {**found.get(part, {}), **freedom.exerted}
-        return found
+                efforts[part] = {**efforts.get(part, {}), **freedom.exerted}
+        return efforts
 
     def working(self) -> Mapping[str, Fields]:
         """The field `work` of each part with a power: forces, and joints with prescribed rates."""
@@ -134,19 +134,19 @@ class Scene:
         """The reactions of a producer from which one follows: in space `q1.force` from three."""
         part, _, field = reaction.rpartition(".")
         if part in self.forces:
-            told = self.forces[part].given.get(field, (field,))
+            components = self.forces[part].given.get(field, (field,))
         elif field in WORK and part in self.joints:
-            told = tuple(self.driven()[part])
+            components = tuple(self.driven()[part])
         elif element := self.joints.get(part) or self.contacts.get(part):
-            told = element.components(field)
+            components = element.components(field)
         else:
-            told = (field,)
-        return tuple(f"{part}.{name}" for name in told)
+            components = (field,)
+        return tuple(f"{part}.{name}" for name in components)
 
     @property
     def touching(self) -> dict[str, Contact]:
         """One contact for every point that may touch the floor: of spokes, `feet.tip0` and on."""
-        return {one.name: one for contact in self.contacts.values() for one in contact.each()}
+        return {point.name: point for contact in self.contacts.values() for point in contact.each()}
 
     @property
     def pressed(self) -> tuple[str, ...]:
@@ -155,13 +155,13 @@ class Scene:
 
     def elements(self) -> Iterator[Body | Joint | Edge | Contact | Pair | Force]:
         """Yields each part that has a name, quantities and numbers."""
-        held = (self.bodies, self.joints, self.constraints)
-        for section in (*held, self.contacts, self.pairs, self.forces):
+        linked = (self.bodies, self.joints, self.constraints)
+        for section in (*linked, self.contacts, self.pairs, self.forces):
             yield from section.values()
 
     def springs(self) -> Iterator[Spring]:
         """The springs along a line."""
-        return of(Spring, self.forces.values())
+        return of_kind(Spring, self.forces.values())
 
     def one_sided(self) -> Iterator[Spring]:
         """The springs that only press or only pull."""
@@ -169,16 +169,16 @@ class Scene:
 
     def limits(self) -> Iterator[Limit]:
         """The forces that hold on one side: ropes and stops."""
-        return of(Limit, self.forces.values())
+        return of_kind(Limit, self.forces.values())
 
     def dampers(self) -> Iterator[Damper]:
         """The dampers along a line."""
-        return of(Damper, self.forces.values())
+        return of_kind(Damper, self.forces.values())
 
     def signals(self) -> Iterator[Push | Torque | Couple | Motor]:
         """The forces and torques that are given in time."""
         kinds = (Push, Torque, Couple, Motor)
-        return (f for kind in kinds for f in of(kind, self.forces.values()))
+        return (f for kind in kinds for f in of_kind(kind, self.forces.values()))
 
     def inner(self) -> dict[str, Force]:
         """The forces with an inner state, by the quantity that it is."""
@@ -213,18 +213,18 @@ class Scene:
 Made = TypeVar("Made")
 
 
-def once(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
-    """Returns the function as one that makes its answer once for each scene, and keeps it there.
+def cached_by_scene(make: Callable[[Scene], Made]) -> Callable[[Scene], Made]:
+    """Decorate a function of a scene so that each scene keeps its result.
 
     The answer is handed out as it is: whoever asks does not change it.
     """
     name = f"{make.__module__}.{make.__qualname__}"
 
     @wraps(make)
-    def known(scene: Scene) -> Made:
-        kept = vars(scene)  # as functools.cached_property does
-        if name not in kept:
-            kept[name] = make(scene)
-        return kept[name]
+    def cached(scene: Scene) -> Made:
+        cache = vars(scene)  # as functools.cached_property does
+        if name not in cache:
+            cache[name] = make(scene)
+        return cache[name]
 
-    return known
+    return cached

@@ -12,29 +12,29 @@ from .rotation import UPRIGHT, Vector3, inverse, product, turned
 ROUNDING = 3 * float(np.finfo(float).eps)  # of three numbers each
 
 
-def orthogonal(vectors: Sequence[Sequence[float]]) -> list[Array]:
-    """Orthonormal vectors that span the same, by Gram and Schmidt."""
-    found: list[Array] = []
+def orthonormal(vectors: Sequence[Sequence[float]]) -> list[Array]:
+    """Orthonormal vectors with the same span, by Gram and Schmidt."""
+    basis: list[Array] = []
     for vector in vectors:
         rest = np.asarray(vector, dtype=float)
-        for known in found:
-            rest = rest - (rest @ known) * known
-        found.append(rest / np.linalg.norm(rest))
-    return found
+        for unit in basis:
+            rest = rest - (rest @ unit) * unit
+        basis.append(rest / np.linalg.norm(rest))
+    return basis
 
 
-def across(vectors: Sequence[Sequence[float]]) -> list[Array]:
-    """Orthonormal vectors that complete what the given ones span to all of space."""
-    known = orthogonal(vectors)
-    found: list[Array] = []
-    for _ in range(3 - len(known)):
-        rests = [e - sum((e @ u) * u for u in (*known, *found)) for e in np.eye(3)]
+def orthogonal_complement(vectors: Sequence[Sequence[float]]) -> list[Array]:
+    """Orthonormal basis of the orthogonal complement of the given vectors."""
+    basis = orthonormal(vectors)
+    complement: list[Array] = []
+    for _ in range(3 - len(basis)):
+        rests = [e - sum((e @ u) * u for u in (*basis, *complement)) for e in np.eye(3)]
         best = max(rests, key=lambda rest: float(rest @ rest))
-        found.append(best / np.linalg.norm(best))
-    return found
+        complement.append(best / np.linalg.norm(best))
+    return complement
 
 
-def shifted(
+def shift_coordinates(
     axes: Sequence[Vector3], d: Array, d_dot: Array, q: Array, omega: Array
 ) -> tuple[Array, Array]:
     """(N, K) each: how far a point is along axes of the first part, and how fast.
@@ -71,7 +71,7 @@ class Turns:
         return self.angles + math.tau * np.round((expected - self.angles) / math.tau)
 
 
-def turned_by(
+def turn_solutions(
     axes: Sequence[Vector3], q_a: Array, omega_a: Array, q_b: Array, omega_b: Array
 ) -> list[Turns]:
     """The ways in which up to three successive turns make the attitude of b against a: one or two.
@@ -120,15 +120,15 @@ def _three(axes: Sequence[Array], between: Array) -> list[Array]:
     last = turned(between, c)  # the third axis, in the axes of the first part
     phase = math.atan2(a @ np.cross(b, c), a @ c - (a @ b) * (b @ c))
     beta = np.arccos(np.clip(_cosine(axes, between), -1.0, 1.0))
-    found = []
+    solutions = []
     for middle in (phase + beta, phase - beta):
         middle = np.remainder(middle + math.pi, math.tau) - math.pi
         tilted = turned(_turn(b, middle), c)
         first = _swing(a, tilted, last)
         rest = product(_turn(b, -middle), product(_turn(a, -first), between))
-        found.append(np.column_stack([first, middle, twist(rest, c)]))
-    nearer = (np.abs(found[0][:, 1]) <= np.abs(found[1][:, 1]))[:, None]
-    return [np.where(nearer, *found), np.where(nearer, *reversed(found))]
+        solutions.append(np.column_stack([first, middle, twist(rest, c)]))
+    nearer = (np.abs(solutions[0][:, 1]) <= np.abs(solutions[1][:, 1]))[:, None]
+    return [np.where(nearer, *solutions), np.where(nearer, *reversed(solutions))]
 
 
 def _cosine(axes: Sequence[Array], between: Array) -> Array:

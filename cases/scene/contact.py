@@ -141,18 +141,18 @@ class Contact:
         heights = np.array([self.plane.height(x, y) for x, y, _, _ in points])
         slips = np.array([ux * vx + uy * vy for _, _, vx, vy in points])
         order = np.argsort(heights, axis=0)
-        found, rank = (heights, 1) if field == "gap" else (slips, 0)
-        return np.take_along_axis(found, order[rank][None], axis=0)[0]
+        values, rank = (heights, 1) if field == "gap" else (slips, 0)
+        return np.take_along_axis(values, order[rank][None], axis=0)[0]
 
     def _in_space(self, motion: Motion, field: str) -> Array:
         """(N,) of the body's lowest point, or of the pivot; else KeyError."""
         if field in ("along", "side"):
             fx, fy = (motion.reaction(f"{self.name}.{name}") for name in self.components(field))
-            left = self._axle(motion)[:, :2]
-            left = left / np.linalg.norm(left, axis=1, keepdims=True)
+            axle = self._axle(motion)[:, :2]
+            axle = axle / np.linalg.norm(axle, axis=1, keepdims=True)
             if field == "side":
-                return fx * left[:, 0] + fy * left[:, 1]
-            return fx * left[:, 1] - fy * left[:, 0]
+                return fx * axle[:, 0] + fy * axle[:, 1]
+            return fx * axle[:, 1] - fy * axle[:, 0]
         if field not in ("slip", "gap"):
             raise KeyError(f"{self.name}.{field}")
         states, arm = motion.trajectory.states[self.body], self._arm(motion)

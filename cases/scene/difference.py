@@ -6,9 +6,9 @@ from ..trajectory import Array
 from .rotation import angle_between, inverse, product
 
 
-def apart(one: Array, other: Array) -> Array:
+def deviation(a: Array, b: Array) -> Array:
     """(N,) |a − b| of numbers (N,); of attitudes (N, 4) the angle [rad] between them."""
-    return np.abs(one - other) if one.ndim == 1 else angle_between(one, other)
+    return np.abs(a - b) if a.ndim == 1 else angle_between(a, b)
 
 
 def from_reference(samples: Array, reference: Array) -> Array:

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from ..trajectory import Array
-from .chain import across
+from .chain import orthogonal_complement
 from .rotation import turned
 
 Anything = TypeVar("Anything")
@@ -156,7 +156,7 @@ class _Space(Frame):
         return float(np.linalg.eigvalsh(turning)[-1])
 
     def least_moment(self, inertia: Sequence[float], arm: Sequence[float]) -> float:
-        axes = np.array(across([arm] if any(arm) else []))
+        axes = np.array(orthogonal_complement([arm] if any(arm) else []))
         least = float(np.linalg.eigvalsh(axes @ self.tensor(inertia) @ axes.T)[0])
         return max(least, 0.0)
 

@@ -10,8 +10,8 @@ from typing import Any
 from . import Anchor, Scene
 
 
-def apart(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
-    """The scenes that are solved one by one: the islands, or one of what is looked at together.
+def solved_scenes(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
+    """The scenes that are solved separately: the islands, or the whole scene.
 
     A hand-written system is one, and events are read from the record of one motion.
     """
@@ -19,18 +19,18 @@ def apart(scene: Scene, system: object, events: object) -> tuple[Scene, ...]:
 
 
 def islands(scene: Scene) -> tuple[Scene, ...]:
-    """The bodies that hang together, with all that acts on them; of one island the scene itself."""
+    """Split a scene into its connected parts, with all that acts on each."""
     together = {name: {name} for name in scene.bodies}
-    acting = {name: _bodies(scene, ends) for name, ends in _acting(scene)}
-    for bodies in acting.values():
+    ends = {name: _bodies(scene, anchors) for name, anchors in _connections(scene)}
+    for bodies in ends.values():
         joined = set[str]().union(*(together[name] for name in bodies))
         together |= dict.fromkeys(joined, joined)
-    found = {id(group): group for group in together.values()}.values()
-    return (scene,) if len(found) <= 1 else tuple(_part(scene, acting, group) for group in found)
+    groups = {id(group): group for group in together.values()}.values()
+    return (scene,) if len(groups) <= 1 else tuple(_part(scene, ends, group) for group in groups)
 
 
-def _acting(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
-    """Yields what is between bodies, or between a body and the ground: its name and its points."""
+def _connections(scene: Scene) -> Iterator[tuple[str, tuple[Anchor, ...]]]:
+    """Yields name and points of each element that connects bodies, or one with the ground."""
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs):
         yield from ((element.name, element.refers()) for element in section.values())
     for force in scene.forces.values():
@@ -42,11 +42,11 @@ def _bodies(scene: Scene, ends: tuple[Anchor, ...]) -> set[str]:
     return {at.body for at in ends} & scene.bodies.keys()
 
 
-def _part(scene: Scene, acting: Mapping[str, set[str]], group: set[str]) -> Scene:
+def _part(scene: Scene, ends: Mapping[str, set[str]], group: set[str]) -> Scene:
     """These bodies with all that acts on them, in the scene's order; the ground stays whole."""
 
     def mine(section: Mapping[str, Any]) -> dict[str, Any]:
-        return {name: each for name, each in section.items() if acting.get(name, set()) & group}
+        return {name: each for name, each in section.items() if ends.get(name, set()) & group}
 
     joints = mine(scene.joints)
     return replace(

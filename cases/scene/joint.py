@@ -13,7 +13,7 @@ from ..fields.kind import WORK, Fields
 from ..fields.part import Angle, Direction
 from ..trajectory import Array
 from .body import Body
-from .chain import Turns, orthogonal, shifted, turned_by
+from .chain import Turns, orthonormal, shift_coordinates, turn_solutions
 from .counting import counted, nearest
 from .frame import PLANE, SPACE, Frame
 from .motion import Motion
@@ -183,7 +183,7 @@ class Joint:
 
     @property
     def begun(self) -> list[float | None]:
-        """Near which angle each turn begins, as far as that is said."""
+        """The start angle of each turn, None where it is not given."""
         return [self.begins.get(f.name) for f in self.turns]
 
     def turning(self, name: str) -> int:
@@ -202,8 +202,8 @@ class Joint:
         turns = self.frame is SPACE or all(
             bodies[at.body].turns for at in self.refers() if at.body in bodies
         )
-        left = (f.coordinate for f in self.named if turns or f.kind != "turn")
-        return {name: of for fields in left for name, of in fields.items()}
+        coordinates = (f.coordinate for f in self.named if turns or f.kind != "turn")
+        return {name: of for fields in coordinates for name, of in fields.items()}
 
     def quantities(self) -> dict[str, Fields]:
         """Its reactions and its gap; slip and friction where there is dry friction."""
@@ -269,22 +269,22 @@ class Joint:
         if self.frame is PLANE:
             ways = {"turn": self._angle, "shift": self._shift}
             each = [ways[f.kind](motion) if f.kind in ways else (none, none) for f in self.freedoms]
-            both = [np.reshape(one, (-1, len(d))).T for one in zip(*each, strict=True)]
+            both = [np.reshape(values, (-1, len(d))).T for values in zip(*each, strict=True)]
             return both[0], both[1]
         first = axes_of(motion, self.a.body)
-        shifts = shifted([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
+        shifts = shift_coordinates([f.axis for f in self.shifts], d[:, :3], d[:, 3:], *first)
         if any(f.kind == "ball" for f in self.freedoms):
             return np.column_stack([shifts[0], none]), np.column_stack([shifts[1], none])
         turns = self.turned(motion)
         return np.hstack([shifts[0], turns.angles]), np.hstack([shifts[1], turns.rates])
 
     def turned(self, motion: Motion) -> Turns:
-        """Its turns in space by themselves, of which none is a ball's."""
+        """The turns of a joint in space; not of a ball."""
         first, second = (axes_of(motion, at.body) for at in (self.a, self.b))
-        ways = turned_by([f.axis for f in self.turns], *first, *second)
-        told = motion.trajectory.near.get(self.name)
-        if told is not None:
-            return nearest(ways, told)
+        ways = turn_solutions([f.axis for f in self.turns], *first, *second)
+        expected = motion.trajectory.near.get(self.name)
+        if expected is not None:
+            return nearest(ways, expected)
         return counted(ways, motion.trajectory.times, self.begun)
 
     def _angle(self, motion: Motion) -> tuple[Array, Array]:
@@ -317,7 +317,7 @@ class Joint:
         d, _ = np.hsplit(motion.point(self.b) - motion.point(self.a), 2)
         if self.shifts:
             q, _ = axes_of(motion, self.a.body)
-            for freedom in orthogonal([f.axis for f in self.shifts]):
+            for freedom in orthonormal([f.axis for f in self.shifts]):
                 u = self.frame.turned(q, freedom)
                 d = d - np.sum(d * u, axis=1, keepdims=True) * u
         apart = self.frame.size(d)
@@ -346,8 +346,8 @@ def planar_joint(
     length: Annotated[float, In("m", above=0)] | None = None,
 ) -> Joint:
     """A joint between a point of one part and a point of another; it leaves the kind's freedoms."""
-    left = [replace(f, axis=along) if f.kind == "shift" else f for f in FREEDOMS[kind]]
-    return Joint(name, kind, a, b, tuple(left), angle, dry_friction, length)
+    freedoms = [replace(f, axis=along) if f.kind == "shift" else f for f in FREEDOMS[kind]]
+    return Joint(name, kind, a, b, tuple(freedoms), angle, dry_friction, length)
 
 
 def axes_of(motion: Motion, body: str) -> tuple[Array, Array]:

@@ -12,7 +12,7 @@ from .body import Body
 from .frame import SPACE
 from .islands import islands
 from .motion import Motion
-from .power import done
+from .power import work_done
 from .quantity import table
 
 
@@ -30,7 +30,7 @@ def observe(scene: Scene, trajectory: Trajectory, name: str) -> Array:
         return _momentum(scene, trajectory, quantity.field)
     owner, _, point = quantity.part.partition(".")
     if quantity.field == "work" and owner in (*scene.joints, *scene.forces):
-        return done(trajectory, corners(scene, owner), lambda rows: power(scene, rows, owner))
+        return work_done(trajectory, corners(scene, owner), lambda rows: power(scene, rows, owner))
     for section in (scene.joints, scene.constraints, scene.contacts, scene.pairs, scene.forces):
         if owner in section:
             return section[owner].observe(motion_of(scene, trajectory), quantity.field)

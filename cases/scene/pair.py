@@ -168,9 +168,9 @@ class Pair:
 
         Negative where it is past an end.
         """
-        one, two = (motion.point(Anchor(self.touched, end))[:, :2] for end in self.side.ends)
-        along = two - one
-        share = np.sum((motion.point(self.at)[:, :2] - one) * along, axis=1)
+        first, last = (motion.point(Anchor(self.touched, end))[:, :2] for end in self.side.ends)
+        along = last - first
+        share = np.sum((motion.point(self.at)[:, :2] - first) * along, axis=1)
         share /= np.sum(along * along, axis=1)
         return share + ROUNDING, 1 - share + ROUNDING
 

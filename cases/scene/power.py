@@ -16,35 +16,35 @@ import numpy as np
 from ..trajectory import Array, Trajectory
 
 
-def done(
+def work_done(
     motion: Trajectory, corners: Iterable[float], power: Callable[[Trajectory], Array]
 ) -> Array:
-    """(N,) work [J] since the first sample, of a power [W] that is told at any rows of a motion."""
-    found, before = [np.zeros(0)], 0.0
+    """(N,) work [J] since the first sample, from a function for the power [W]."""
+    work, before = [np.zeros(0)], 0.0
     for piece in pieces(motion, corners):
         own = motion.times[piece.own]
         marks = np.unique([piece.begin, *own.clip(piece.begin, piece.end), piece.end])
         sums = before + np.cumsum([0.0, *areas(piece.motion.times, power(piece.motion), marks)])
-        found.append(sums[np.searchsorted(marks, own.clip(piece.begin, piece.end))])
+        work.append(sums[np.searchsorted(marks, own.clip(piece.begin, piece.end))])
         before = float(sums[-1])
-    return np.concatenate(found)
+    return np.concatenate(work)
 
 
 def areas(times: Array, values: Array, marks: Array) -> list[float]:
     """The areas between each mark and the next, under the polynomials through the values around."""
-    around = [_around(times, (a + b) / 2) for a, b in pairwise(marks.tolist())]
+    around = [_rows_around(times, (a + b) / 2) for a, b in pairwise(marks.tolist())]
     between = zip(around, pairwise(marks.tolist()), strict=True)
-    return [_between(times[rows], values[rows], *ends) for rows, ends in between]
+    return [_area(times[rows], values[rows], *ends) for rows, ends in between]
 
 
-def _around(times: Array, middle: float) -> slice:
+def _rows_around(times: Array, middle: float) -> slice:
     """The rows around a time."""
     first = int(np.searchsorted(times, middle)) - AROUND // 2
     first = min(max(0, first), max(0, len(times) - AROUND))
     return slice(first, first + AROUND)
 
 
-def _between(times: Array, values: Array, begin: float, end: float) -> float:
+def _area(times: Array, values: Array, begin: float, end: float) -> float:
     """The area from `begin` to `end` under the polynomial through all rows."""
     middle, half = (begin + end) / 2, (end - begin) / 2
     size = max(half, float(np.ptp(times)))  # scaled: high powers of a small time would underflow
@@ -83,7 +83,7 @@ class Piece:
 
 
 def pieces(motion: Trajectory, corners: Iterable[float]) -> Iterator[Piece]:
-    """The pieces in their order; of a motion without corners it is itself the only one.
+    """Split a motion at the corners of its laws; without corners it is one piece.
 
     The last begins and ends with the last sample, where that is on a corner.
     """
@@ -97,11 +97,11 @@ def pieces(motion: Trajectory, corners: Iterable[float]) -> Iterator[Piece]:
     ends = [*(before for before, _ in inside), float(times[-1])]
     for k, (part, begin, end) in enumerate(zip(parts, begins, ends, strict=True)):
         rows = [_rows(motion, part, begin)]
-        if k and _apart(times, begin, part, end - begin):
-            rows.insert(0, _at(motion, begin, (parts[k - 1], part), part))
-        if part is not parts[-1] and _apart(times, end, part, end - begin):
-            rows.append(_before(_at(motion, end, (part, parts[k + 1]), part)))
-        yield Piece(begin, end, _joined(rows), part)
+        if k and _adds_information(times, begin, part, end - begin):
+            rows.insert(0, _row_at(motion, begin, (parts[k - 1], part), part))
+        if part is not parts[-1] and _adds_information(times, end, part, end - begin):
+            rows.append(_row_before(_row_at(motion, end, (part, parts[k + 1]), part)))
+        yield Piece(begin, end, _concatenate(rows), part)
 
 
 def _instants(times: Array, corners: Iterable[float]) -> list[tuple[float, float]]:
@@ -109,34 +109,34 @@ def _instants(times: Array, corners: Iterable[float]) -> list[tuple[float, float
 
     Two laws may write one instant in two ways, as 0.3 and 0.1 + 0.2.
     """
-    found = list[tuple[float, float]]()
+    instants = list[tuple[float, float]]()
     for t in sorted({*corners}):
         if not times[0] < t <= times[-1]:
             continue
-        if found and t - found[-1][1] <= ROUNDED * (times[-1] - times[0]):
-            found[-1] = found[-1][0], t
+        if instants and t - instants[-1][1] <= ROUNDED * (times[-1] - times[0]):
+            instants[-1] = instants[-1][0], t
         else:
-            found.append((t, t))
-    return found
+            instants.append((t, t))
+    return instants
 
 
-def _apart(times: Array, corner: float, part: slice, length: float) -> bool:
-    """Whether a corner of a part is not near its samples, so that it tells more than they do."""
-    one, other = times[_within(times, corner)]
-    return bool(np.all(np.abs(times[part] - corner) >= NEAR * min(other - one, length)))
+def _adds_information(times: Array, corner: float, part: slice, length: float) -> bool:
+    """Whether a corner is far enough from the samples of its part to add information."""
+    before, after = times[_neighbours(times, corner)]
+    return bool(np.all(np.abs(times[part] - corner) >= NEAR * min(after - before, length)))
 
 
-def _at(motion: Trajectory, t: float, beside: tuple[slice, slice], part: slice) -> Trajectory:
+def _row_at(motion: Trajectory, t: float, beside: tuple[slice, slice], part: slice) -> Trajectory:
     """One row, at a corner: states from the better sampled side, what jumps as in `part`."""
     rows = _side(motion.times, t, beside)
     given = _nearest(motion.times, t, part)
     if not len(given):
-        given = _within(motion.times, t)
+        given = _neighbours(motion.times, t)
     return Trajectory(
         np.array([t]),
-        {name: _read(motion.times, each, rows, t) for name, each in motion.states.items()},
-        {name: _read(motion.times, each, given, t) for name, each in motion.reactions.items()},
-        near={name: _read(motion.times, e, rows, t) for name, e in motion.near.items()},
+        {name: _lagrange(motion.times, each, rows, t) for name, each in motion.states.items()},
+        {name: _lagrange(motion.times, each, given, t) for name, each in motion.reactions.items()},
+        near={name: _lagrange(motion.times, e, rows, t) for name, e in motion.near.items()},
     )
 
 
@@ -150,7 +150,7 @@ def _side(times: Array, t: float, beside: tuple[slice, slice]) -> Any:
     return min(
         sides,
         key=lambda rows: float(np.prod(np.abs(times[rows] - t) / distance)),
-        default=_within(times, t),
+        default=_neighbours(times, t),
     )
 
 
@@ -160,19 +160,19 @@ def _nearest(times: Array, t: float, part: slice) -> Any:
     return rows[np.argsort(np.abs(times[rows] - t), kind="stable")[:AROUND]]
 
 
-def _within(times: Array, t: float) -> Any:
+def _neighbours(times: Array, t: float) -> Any:
     """The samples before and after a time."""
     i = min(max(int(np.searchsorted(times, t)), 1), len(times) - 1)
     return np.array([i - 1, i])
 
 
-def _read(times: Array, values: Array, rows: Any, t: float) -> Array:
+def _lagrange(times: Array, values: Array, rows: Any, t: float) -> Array:
     """(1, …) the value at t of the polynomial through these rows, by Lagrange."""
-    at, found = times[rows], 0.0 * values[:1]
+    nodes, value = times[rows], 0.0 * values[:1]
     for i, row in enumerate(rows):
-        others = np.delete(at, i)
-        found = found + values[row] * np.prod((t - others) / (at[i] - others))
-    return found
+        others = np.delete(nodes, i)
+        value = value + values[row] * np.prod((t - others) / (nodes[i] - others))
+    return value
 
 
 def _rows(motion: Trajectory, part: slice, begin: float) -> Trajectory:
@@ -184,13 +184,13 @@ def _rows(motion: Trajectory, part: slice, begin: float) -> Trajectory:
     )
 
 
-def _before(row: Trajectory) -> Trajectory:
-    """The row at the last time before its own: what follows a law has not jumped there."""
+def _row_before(row: Trajectory) -> Trajectory:
+    """The same row one ulp of time earlier, before a law jumps."""
     return Trajectory(np.nextafter(row.times, -np.inf), row.states, row.reactions, near=row.near)
 
 
-def _joined(parts: list[Trajectory]) -> Trajectory:
-    """Rows after rows."""
+def _concatenate(parts: list[Trajectory]) -> Trajectory:
+    """Concatenate trajectories."""
     first = parts[0]
     if len(parts) == 1:
         return first

@@ -11,7 +11,7 @@ from typing import Literal
 
 from ..fields.event import Event
 from ..fields.kind import Fields, Kind
-from . import Scene, once
+from . import Scene, cached_by_scene
 
 _ENERGY: Fields = {
     "kinetic": ("J", "energy"),
@@ -48,7 +48,7 @@ class Quantity:
     kind: Kind  # what it is told by: a place, a velocity, a force, …
 
 
-@once
+@cached_by_scene
 def table(scene: Scene) -> MappingProxyType[str, Quantity]:
     """Every quantity of the scene by name, in the scene's order."""
     parts: dict[str, Fields] = {}
@@ -84,10 +84,10 @@ def at_event(name: str, events: Container[str]) -> AtEvent | None:
     return AtEvent(event, quantity, last) if last in SIDES[1:] else AtEvent(event, rest, "")
 
 
-def told_by(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
-    """The quantities that the events are of, and those that are bounded at events."""
-    found = [event.quantity for event in events.values()]
-    return found + [at.quantity for name in bounded if (at := at_event(name, events))]
+def needed_by_events(events: Mapping[str, Event], bounded: Iterable[str]) -> list[str]:
+    """The quantities of the events, and those with bounds at an event."""
+    names = [event.quantity for event in events.values()]
+    return names + [at.quantity for name in bounded if (at := at_event(name, events))]
 
 
 def at_events(events: Iterable[str], known: Mapping[str, Quantity]) -> dict[str, Quantity]:
@@ -95,16 +95,16 @@ def at_events(events: Iterable[str], known: Mapping[str, Quantity]) -> dict[str,
     return {
         quantity.name: quantity
         for event in events
-        for one in known.values()
-        if one.field not in NOT_AT_EVENTS
-        for quantity in _sides(event, one)
+        for base in known.values()
+        if base.field not in NOT_AT_EVENTS
+        for quantity in _sides(event, base)
     }
 
 
-def _sides(event: str, one: Quantity) -> Iterator[Quantity]:
+def _sides(event: str, base: Quantity) -> Iterator[Quantity]:
     for side in SIDES:
-        field = ".".join((one.name, side)) if side else one.name
-        yield Quantity(f"{event}.{field}", event, field, one.unit, one.kind)
+        field = ".".join((base.name, side)) if side else base.name
+        yield Quantity(f"{event}.{field}", event, field, base.unit, base.kind)
 
 
 def _named(parts: Mapping[str, Fields]) -> dict[str, Quantity]:

@@ -27,17 +27,17 @@ class Count(Plain):
     most: int
 
     def check(self, value: object, known: Names) -> int:
-        found = number(value, "1", known)
-        if found is None:
+        amount = number(value, "1", known)
+        if amount is None:
             return self.least
-        if not self.least <= found.value <= self.most or found.value != round(found.value):
+        if not self.least <= amount.value <= self.most or amount.value != round(amount.value):
             by_name = f" ({value})" if isinstance(value, str) else ""
             raise wrong(
                 f"should be a whole number from {self.least} to {self.most}, is "
-                f"{found.value:.15g}{by_name}",
+                f"{amount.value:.15g}{by_name}",
                 number=True,
             )
-        return round(found.value)
+        return round(amount.value)
 
     def schema(self) -> dict[str, Any]:
         literal = {"type": "integer", "minimum": self.least, "maximum": self.most}

@@ -86,7 +86,7 @@ def bar(*, name: str, mass: Mass, length: Length, points: Points) -> Body:
 
 def disk(*, name: str, mass: Mass, radius: Length, axle: Direction, points: Points) -> Body:
     """Thin homogeneous disk about its axle u: J = m R²/4 (1 + u uᵀ)."""
-    tensor = _about(axle, mass * radius**2 / 4, mass * radius**2 / 2)
+    tensor = _tensor_about(axle, mass * radius**2 / 4, mass * radius**2 / 2)
     return Body(name, "disk", mass, tensor, {**_AT_CENTER, **points}, radius, axle, frame=SPACE)
 
 
@@ -126,7 +126,7 @@ def rigid(
     return Body(name, "rigid", mass, inertia, {**_AT_CENTER, **points}, radius, axle, frame=SPACE)
 
 
-def _about(axis: Vector, across: float, along: float) -> Tensor:
+def _tensor_about(axis: Vector, across: float, along: float) -> Tensor:
     """A tensor with equal moments across an axis: J = J⊥ 1 + (J∥ − J⊥) u uᵀ."""
     u, v, w = axis
     d = along - across

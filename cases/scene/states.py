@@ -73,7 +73,7 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
     known = {
         name: quantity
         for name, quantity in table(scene).items()
-        if _told(scene, quantity) and not _drawn(scene, quantity)
+        if _claimable(scene, quantity) and not _drawn(scene, quantity)
     }
     for part, fields in _more(scene):
         for field, (unit, kind) in fields.items():
@@ -86,7 +86,7 @@ def claimable(scene: Scene) -> dict[str, Quantity]:
     return known
 
 
-def _told(scene: Scene, quantity: Quantity) -> bool:
+def _claimable(scene: Scene, quantity: Quantity) -> bool:
     if quantity.field in WORK:  # a state has no time in which any would be done
         return False
     return quantity.kind in _OF_STATES or quantity.part in scene.forces
@@ -117,5 +117,5 @@ def _turning(scene: Scene) -> Fields:
     spatial = scene.frame.dimension == 3
     alpha = [f"alpha_{axis}" for axis in "xyz"] if spatial else []
     ends = ("_11", "_22", "_33", "_12", "_13", "_23") if spatial else ("",)
-    found: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
-    return found | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))
+    fields: dict[str, tuple[str, Kind]] = dict.fromkeys(alpha, ("rad/s²", "acceleration"))
+    return fields | dict.fromkeys((f"inertia{end}" for end in ends), ("kg m²", "inertia"))

@@ -23,14 +23,14 @@ Depths = Callable[[str, Vector], Array]
 """How deep (N,) [m] a point of a body, by its name and place on it, is in something."""
 
 
-def through(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
-    """Yields a sentence for each thing that points of a body go through, about the deepest."""
+def penetrations(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
+    """Yields a sentence for each surface that a body penetrates, with its deepest point."""
     motion = motion_of(scene, trajectory)
     for body in scene.bodies.values():
         outline = _outline(body)
         deep = DEEP * max((float(np.linalg.norm(at)) for at in outline.values()), default=0.0)
-        for (on, depths), named in _stood_on(scene, body, motion).items():
-            depth = {name: depths(name, at) for name, at in outline.items() if name not in named}
+        for (on, depths), names in _named_points(scene, body, motion).items():
+            depth = {name: depths(name, at) for name, at in outline.items() if name not in names}
             deepest = max(depth, key=lambda name: float(np.max(depth[name])), default="")
             if deepest and (most := float(np.max(depth[deepest]))) > deep:
                 begins = trajectory.times[int(np.argmax(depth[deepest] > deep))]
@@ -41,39 +41,39 @@ def through(scene: Scene, trajectory: Trajectory) -> Iterator[str]:
 
 
 def _outline(body: Body) -> Mapping[str, Vector]:
-    """The points that the body has beside its centre, by name; of what is round none stands out."""
+    """The points of the body but its centre, by name; empty for a round body."""
     if body.radius is not None:
         return {}
-    found = {name: at for name, at in body.points.items() if name != CENTER}
+    points = {name: at for name, at in body.points.items() if name != CENTER}
     if body.frame is SPACE and body.size is not None:  # in the plane its corners have names
         corners = product(*((-x / 2, x / 2) for x in body.size))
-        found |= {f"corner{k}": corner for k, corner in enumerate(corners, start=1)}
-    return found
+        points |= {f"corner{k}": corner for k, corner in enumerate(corners, start=1)}
+    return points
 
 
-def _stood_on(scene: Scene, body: Body, motion: Motion) -> dict[tuple[str, Depths], set[str]]:
-    """The planes and sides that contacts of the body are with, and the points that these name."""
+def _named_points(scene: Scene, body: Body, motion: Motion) -> dict[tuple[str, Depths], set[str]]:
+    """The surfaces in contacts of the body, each with the points that the contacts name."""
     by_name: dict[str, Depths] = {}
-    found: dict[tuple[str, Depths], set[str]] = {}
+    names: dict[tuple[str, Depths], set[str]] = {}
     for contact in scene.contacts.values():
         if contact.body == body.name:
-            below = by_name.setdefault(contact.on, partial(_below, motion, body, contact.plane))
-            found.setdefault((contact.on, below), set()).update(contact.tips or (contact.at.point,))
+            below = by_name.setdefault(contact.on, partial(_depth, motion, body, contact.plane))
+            names.setdefault((contact.on, below), set()).update(contact.tips or (contact.at.point,))
     for pair in scene.pairs.values():
         if pair.body == body.name and pair.face is not None:
-            inside = by_name.setdefault(pair.on, partial(_inside, motion, pair))
-            found.setdefault((pair.on, inside), set()).add(pair.at.point)
-    return found
+            inside = by_name.setdefault(pair.on, partial(_depth_inside, motion, pair))
+            names.setdefault((pair.on, inside), set()).add(pair.at.point)
+    return names
 
 
-def _below(motion: Motion, body: Body, plane: Plane, name: str, at: Vector) -> Array:
+def _depth(motion: Motion, body: Body, plane: Plane, name: str, at: Vector) -> Array:
     states = motion.trajectory.states[body.name]
     points = body.frame.moved(states, at)[:, : len(at)]
     return -(points - np.array(plane.at)) @ np.array(plane.normal)
 
 
-def _inside(motion: Motion, pair: Pair, name: str, at: Vector) -> Array:
-    """0 beside the face, and beyond the block's other side: there it is below, and not inside."""
+def _depth_inside(motion: Motion, pair: Pair, name: str, at: Vector) -> Array:
+    """(N,) depth [m] in a block; 0 beside the face and beyond the opposite side."""
     other = replace(pair, at=Anchor(pair.body, name))
     depth = -other.normal_and_gap(motion)[1]
     thick = min(motion.bodies[pair.touched].size)

@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from ...cases.model_case import ModelCase
-from .limit import begun_as
+from .limit import data_from
 from .model import OwnModel
 
 ARMATURES = (0.001, 0.01, 0.1)  # kg m², kg: by tens, as the smallest that cures is looked for
@@ -65,9 +65,9 @@ def _armatures(case: ModelCase, own: OwnModel, joints: Sequence[int]) -> Iterato
 
 def _gains(case: ModelCase, own: OwnModel, joints: Sequence[int]) -> Iterator[Changed]:
     m = own.model
-    used = [i for joint in joints for i in _servos(m, joint)]
-    for part in GAINS if used else ():
-        less = {i: float(f"{-part * m.actuator_biasprm[i, 2]:.6g}") for i in used}
+    servos = [i for joint in joints for i in _servos(m, joint)]
+    for part in GAINS if servos else ():
+        less = {i: float(f"{-part * m.actuator_biasprm[i, 2]:.6g}") for i in servos}
         edits = [_Edit("actuator", i, kv) for i, kv in less.items()]
         lines = tuple(_gain(m, i, kv) for i, kv in less.items())
         words = f"kv {', '.join(f'{kv:g}' for kv in less.values())}"
@@ -107,7 +107,7 @@ def _compiled(case: ModelCase, own: OwnModel, edits: Sequence[_Edit]) -> OwnMode
             edit(getattr(model, edit.element)(edit.number))
         mujoco.mj_setConst(model, mujoco.MjData(model))
     model.opt.disableflags = own.model.opt.disableflags
-    return replace(own, model=model, begun=begun_as(model, own.start()))
+    return replace(own, model=model, begun=data_from(model, own.start()))
 
 
 def _joint(m: mujoco.MjModel, joint: int) -> str:

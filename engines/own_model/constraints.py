@@ -8,7 +8,7 @@ import numpy as np
 
 from ...cases.constraints import Bound, Constrained, Constraint
 from .model import OwnModel, State
-from .numbers import named
+from .numbers import element_name
 from .release import mass_matrix
 
 KIND = mujoco.mjtConstraint
@@ -33,8 +33,8 @@ ONCE_MORE = 4  # iterations of Newton's, from where it stopped: they double the 
 NO_SLIP = "option noslip_iterations: forces that a second pass changes follow no one law"
 
 
-def acting(m: mujoco.MjModel, data: mujoco.MjData) -> str:
-    """Returns in words what acts first among the constraints of a state."""
+def first_constraint(m: mujoco.MjModel, data: mujoco.MjData) -> str:
+    """Returns the name of the first active constraint of a state."""
     return _name(m, data, 0)
 
 
@@ -43,7 +43,7 @@ def _name(m: mujoco.MjModel, data: mujoco.MjData, row: int) -> str:
     if kind in OF:
         word, of, _ = OF[KIND(kind)]
         number = int(m.dof_jntid[number]) if kind == KIND.mjCNSTR_FRICTION_DOF else number
-        return f"{word} {named(m, of, number)}"
+        return f"{word} {element_name(m, of, number)}"
     contact = data.contact[number]
     pairs = zip(contact.geom.tolist(), contact.flex.tolist(), strict=True)
     return f"contact of {' and '.join(_side(m, geom, flex) for geom, flex in pairs)}"
@@ -51,9 +51,9 @@ def _name(m: mujoco.MjModel, data: mujoco.MjData, row: int) -> str:
 
 def _side(m: mujoco.MjModel, geom: int, flex: int) -> str:
     if geom < 0:
-        return f"flex {named(m, OBJECT.mjOBJ_FLEX, flex)}"
+        return f"flex {element_name(m, OBJECT.mjOBJ_FLEX, flex)}"
     name = mujoco.mj_id2name(m, OBJECT.mjOBJ_GEOM, geom)
-    body = named(m, OBJECT.mjOBJ_BODY, int(m.geom_bodyid[geom]))
+    body = element_name(m, OBJECT.mjOBJ_BODY, int(m.geom_bodyid[geom]))
     return f"geom {name}" if name else f"body {body}"
 
 

@@ -10,7 +10,7 @@ from ...cases.trajectory import Array
 from .limit import WORDS as OPTIONS
 from .model import OwnModel
 from .numbers import BIASES, GAINS, KINDS, OBJECT, WORDS, fixed_tendons
-from .quantities import called
+from .quantities import label
 from .release import actuators, column
 
 Table = list[list[str]]
@@ -55,7 +55,7 @@ def _flags(name: str, value: int, usual: int) -> Iterator[str]:
 def identity(m: mujoco.MjModel) -> list[str]:
     """Returns the model's name and mass, and how much there is of what no table has."""
     name = m.names[: m.names.index(b"\0")].decode(errors="replace")
-    return [repr(name), f"{_numbers(m.body_mass.sum())} kg", *_beside(m)]
+    return [repr(name), f"{_numbers(m.body_mass.sum())} kg", *_other_counts(m)]
 
 
 def joints(own: OwnModel) -> Table:
@@ -64,23 +64,23 @@ def joints(own: OwnModel) -> Table:
     table = [["joint", "kind", "body", "range", "damping", "armature", "frictionloss", "spring",
               "motors' force", "start", "rate"]]  # fmt: skip
     for j in range(m.njnt):
-        kind, body = KINDS[int(m.jnt_type[j])], called(m, OBJECT.mjOBJ_BODY, int(m.jnt_bodyid[j]))
+        kind, body = KINDS[int(m.jnt_type[j])], label(m, OBJECT.mjOBJ_BODY, int(m.jnt_bodyid[j]))
         (q, q_end), (v, v_end) = (
             (addresses[j], [*addresses[1:], end][j])
             for addresses, end in ((m.jnt_qposadr, m.nq), (m.jnt_dofadr, m.nv))
         )
         unit = UNITS.get(kind, "")
         table.append([
-            called(m, OBJECT.mjOBJ_JOINT, j), kind, body,
+            label(m, OBJECT.mjOBJ_JOINT, j), kind, body,
             _range(m.jnt_range[j], m.jnt_limited[j], unit),
-            *(_same(values[v:v_end]) for values in (
+            *(_common_value(values[v:v_end]) for values in (
                 m.dof_damping, m.dof_armature, m.dof_frictionloss)),
             _spring(m.jnt_stiffness[j], m.qpos_spring[q:q_end], unit),
             _range(m.jnt_actfrcrange[j], m.jnt_actfrclimited[j]),
             f"{_numbers(start.qpos[q:q_end])} {unit if q_end - q == 1 else ''}".rstrip(),
             _numbers(start.qvel[v:v_end]) if start.qvel.any() else "",
         ])  # fmt: skip
-    return _used(table)
+    return _filled_columns(table)
 
 
 def _spring(stiffness: float, rest: Array, unit: str) -> str:
@@ -98,20 +98,20 @@ def motors(own: OwnModel) -> Table:
         controls = slice(first[i], first[i] + count[i])
         ranges = zip(m.actuator_ctrlrange[controls], m.actuator_ctrllimited[controls], strict=True)
         table.append([
-            called(m, OBJECT.mjOBJ_ACTUATOR, i), _driven(m, i), _law(m, i),
+            label(m, OBJECT.mjOBJ_ACTUATOR, i), _target_name(m, i), _law(m, i),
             "" if np.array_equal(gear, [1, 0, 0, 0, 0, 0]) else _numbers(np.trim_zeros(gear, "b")),
             ", ".join(filter(None, (_range(*each) for each in ranges))),
             _range(m.actuator_forcerange[i], m.actuator_forcelimited[i]),
             _numbers(start.ctrl[controls]),
         ])  # fmt: skip
-    return _used(table)
+    return _filled_columns(table)
 
 
-def _driven(m: mujoco.MjModel, i: int) -> str:
+def _target_name(m: mujoco.MjModel, i: int) -> str:
     kind, number = TARGETS.get(TRANSMISSION(m.actuator_trntype[i])), int(m.actuator_trnid[i, 0])
     if kind is None:
         return TRANSMISSION(m.actuator_trntype[i]).name.removeprefix("mjTRN_").lower()
-    name = called(m, kind, number)
+    name = label(m, kind, number)
     return name if name == f"{WORDS[kind]} {number}" else f"{WORDS[kind]} {name}"
 
 
@@ -155,8 +155,8 @@ def constraints(m: mujoco.MjModel) -> list[str]:
     return [word for bit, (count, word) in counts.items() if count and not off & bit]
 
 
-def _beside(m: mujoco.MjModel) -> list[str]:
-    """Returns how much there is of all else, in words."""
+def _other_counts(m: mujoco.MjModel) -> list[str]:
+    """Returns the numbers of geoms, equalities, tendons, sensors and so on, in words."""
     touch = (m.geom_contype != 0) | (m.geom_conaffinity != 0)
     fixed = len(fixed_tendons(m))
     kinds = Counter(mujoco.mjtEq(kind).name.removeprefix("mjEQ_").lower() for kind in m.eq_type)
@@ -174,18 +174,18 @@ def _beside(m: mujoco.MjModel) -> list[str]:
     return words
 
 
-def _used(table: Table) -> Table:
+def _filled_columns(table: Table) -> Table:
     """Returns the columns that hold anything."""
-    used = [k for k in range(len(table[0])) if any(row[k] for row in table[1:])]
-    return [[row[k] for k in used] for row in table]
+    columns = [k for k in range(len(table[0])) if any(row[k] for row in table[1:])]
+    return [[row[k] for k in columns] for row in table]
 
 
 def _range(ends: Array, limited: bool, unit: str = "") -> str:
     return f"{_numbers(ends[:1])} to {_numbers(ends[1:])} {unit}".rstrip() if limited else ""
 
 
-def _same(values: Array) -> str:
-    """Returns the number that all are; of several each; nothing, if they are 0."""
+def _common_value(values: Array) -> str:
+    """Returns the values in words: one number if all are equal, empty if all are 0."""
     return _numbers(values[:1] if len({*values.tolist()}) == 1 else values) if values.any() else ""
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ...cases.trajectory import Array
-from .model import OwnModel, apart, moved
-from .quantities import called
+from .model import OwnModel, displaced, joint_moves
+from .quantities import label
 
 GEOM = mujoco.mjtGeom
 SHOWN = 3  # groups of geoms: by custom those above hold what collides and is not to be seen
@@ -26,15 +26,15 @@ def outlines(model: mujoco.MjModel) -> dict[str, list[Line]]:
 
     A body without any is drawn as the box of its inertia; one without mass, too, has no line.
     """
-    drawn: dict[str, list[Line]] = {}
+    drawing: dict[str, list[Line]] = {}
     for body in range(model.nbody):
         first = int(model.body_geomadr[body])
         geoms = range(first, first + int(model.body_geomnum[body]))
-        shown = [geom for geom in geoms if model.geom_group[geom] < SHOWN] or geoms
-        lines = [line for geom in shown for line in _geom(model, geom)]
+        visible = [geom for geom in geoms if model.geom_group[geom] < SHOWN] or geoms
+        lines = [line for geom in visible for line in _geom(model, geom)]
         if lines or body:
-            drawn[called(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines or _as_heavy(model, body)
-    return drawn
+            drawing[label(model, mujoco.mjtObj.mjOBJ_BODY, body)] = lines or _mass_box(model, body)
+    return drawing
 
 
 def floors(model: mujoco.MjModel) -> list[Array]:
@@ -48,29 +48,29 @@ def pivots(model: mujoco.MjModel) -> list[tuple[str, Array]]:
     turning = np.isin(model.jnt_type, (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_BALL))
     body = mujoco.mjtObj.mjOBJ_BODY
     return [
-        (called(model, body, int(model.jnt_bodyid[k])), model.jnt_pos[k])
+        (label(model, body, int(model.jnt_bodyid[k])), model.jnt_pos[k])
         for k in np.flatnonzero(turning)
     ]
 
 
-def between(own: OwnModel, times: Array, y: Array, parts: int) -> tuple[Array, Array]:
-    """Returns the times and y (N, k) of a motion with each of its samples cut into so many parts.
+def refined(own: OwnModel, times: Array, y: Array, parts: int) -> tuple[Array, Array]:
+    """Interpolates a motion: times and y (N, k), with each interval cut into so many parts.
 
     Between two samples each joint moves as the cubic through both with both rates, so that none
     opens.
     """
     m = own.model
     q, v = y[:, : m.nq], y[:, m.nq : m.nq + m.nv]
-    h, by = np.diff(times)[:, None], apart(m, q[:-1], q[1:])
+    h, by = np.diff(times)[:, None], joint_moves(m, q[:-1], q[1:])
     rows, finer = [y[:1]], [times[:1]]
     for k, s in enumerate([np.arange(1, parts + 1)[:, None] / parts] * len(by)):
         rates = by[k] / h[k]
         steps = s * s * (3 - 2 * s) * by[k]
         steps += h[k] * (s * (1 - s) ** 2 * v[k] - s * s * (1 - s) * v[k + 1])
-        turned = 6 * s * (1 - s) * rates + (1 - s) * (1 - 3 * s) * v[k] + s * (3 * s - 2) * v[k + 1]
-        reached = np.array([moved(m, q[k], step) for step in steps])
+        rate = 6 * s * (1 - s) * rates + (1 - s) * (1 - 3 * s) * v[k] + s * (3 * s - 2) * v[k + 1]
+        coordinates = np.array([displaced(m, q[k], step) for step in steps])
         rest = y[k, m.nq + m.nv :] + s * (y[k + 1] - y[k])[m.nq + m.nv :]
-        rows.append(np.hstack([reached, turned, rest]))
+        rows.append(np.hstack([coordinates, rate, rest]))
         finer.append(times[k] + h[k] * s[:, 0])
     return np.concatenate(finer), np.concatenate(rows)
 
@@ -92,16 +92,16 @@ def states(own: OwnModel, y: Array) -> dict[str, Array]:
             mujoco.mj_objectVelocity(m, data, mujoco.mjtObj.mjOBJ_XBODY, body, rate, 0)
             spin = data.xmat[body].reshape(3, 3).T @ rate[:3]
             rows[body, k] = [*data.xpos[body], *data.xquat[body], *rate[3:], *spin]
-    return {called(m, mujoco.mjtObj.mjOBJ_BODY, body): rows[body] for body in range(m.nbody)}
+    return {label(m, mujoco.mjtObj.mjOBJ_BODY, body): rows[body] for body in range(m.nbody)}
 
 
 def _geom(m: mujoco.MjModel, geom: int) -> list[Line]:
     """Returns the lines of a geom, in its body's axes; none of one that is no solid."""
     kind, R = GEOM(m.geom_type[geom]), _axes(m.geom_quat[geom])
-    return [m.geom_pos[geom] + line @ R.T for line in SHAPES.get(kind, _nothing)(m, geom)]
+    return [m.geom_pos[geom] + line @ R.T for line in SHAPES.get(kind, _no_lines)(m, geom)]
 
 
-def _nothing(_: mujoco.MjModel, __: int) -> list[Line]:
+def _no_lines(_: mujoco.MjModel, __: int) -> list[Line]:
     return []
 
 
@@ -112,7 +112,7 @@ def _axes(quaternion: Array) -> Array:
     return R.reshape(3, 3)
 
 
-def _as_heavy(m: mujoco.MjModel, body: int) -> list[Line]:
+def _mass_box(m: mujoco.MjModel, body: int) -> list[Line]:
     """Returns the box of a body's mass and moments, J = ⅓ m (b² + c²) with half edges.
 
     It is no larger than what the body joins: it is a picture, not a measure.
@@ -122,9 +122,9 @@ def _as_heavy(m: mujoco.MjModel, body: int) -> list[Line]:
     J = m.body_inertia[body]
     half = np.sqrt(np.maximum(1.5 * (J.sum() - 2 * J) / m.body_mass[body], 0.0))
     children = np.flatnonzero(m.body_parentid == body)
-    joined = np.linalg.norm([m.body_pos[body], m.body_ipos[body], *m.body_pos[children]], axis=1)
-    if joined.any():
-        half *= min(1.0, joined.max() / (np.linalg.norm(half) or 1.0))
+    distances = np.linalg.norm([m.body_pos[body], m.body_ipos[body], *m.body_pos[children]], axis=1)
+    if distances.any():
+        half *= min(1.0, distances.max() / (np.linalg.norm(half) or 1.0))
     return [m.body_ipos[body] + line @ _axes(m.body_iquat[body]).T for line in _cuboid(half)]
 
 

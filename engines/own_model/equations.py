@@ -11,7 +11,7 @@ import numpy as np
 from scipy.integrate import DOP853, Radau
 
 from ...cases.trajectory import Array
-from .constraints import EXACT_SOLVER, acting
+from .constraints import EXACT_SOLVER, first_constraint
 from .control import Controls
 from .model import OwnModel
 
@@ -71,7 +71,7 @@ class Equations:
         self._begin()
 
     def _begin(self) -> None:
-        self.data = begun_as(self.model, self.start)
+        self.data = data_from(self.model, self.start)
         self.left, self.steps, self.first, self.stiff = MOST, 0, FIRST, False
         self.acts: tuple[float, str] = (math.inf, "")
         self.over: dict[str, float] = dict.fromkeys(("DOP853", "Radau", STEPS), 0.0)
@@ -104,7 +104,7 @@ class Equations:
     def _note(self, t: float) -> None:
         """Notes what constraint acts first, of those that act at t [s]."""
         if self.data.nefc and t < self.acts[0]:
-            self.acts = float(t), acting(self.model, self.data)
+            self.acts = float(t), first_constraint(self.model, self.data)
 
     def followed(self, times: Array, to: Fineness) -> Array:
         """Returns y (N, k) at the times. Raises NoLimit where even small steps diverge.
@@ -214,8 +214,8 @@ def controls_of(own: OwnModel, start: mujoco.MjData) -> Controls:
     return Controls(np.array(start.ctrl), own.laws)
 
 
-def begun_as(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:
-    """Returns data of the model that begin where others stand, with their controls."""
+def data_from(model: mujoco.MjModel, start: mujoco.MjData) -> mujoco.MjData:
+    """Returns new data of the model with the state and controls of others."""
     data = mujoco.MjData(model)
     for name in ("qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat"):
         getattr(data, name)[:] = getattr(start, name)

@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 
 from ...cases.trajectory import Array
-from .equations import SLIGHT, Equations, Fineness, NoLimit, begun_as, controls_of
-from .model import BROKEN, OwnModel, apart
+from .equations import SLIGHT, Equations, Fineness, NoLimit, controls_of, data_from
+from .model import BROKEN, OwnModel, joint_moves
 from .step_law import with_step
 
 WITHIN = 1e-4  # rad, m: no limit is sought finer than that where it takes many steps
@@ -22,11 +22,11 @@ PARTS = 32  # of the model's own step, at first, where no integrator comes throu
 MOST_STEPS, FEW = 3_000_000, 8  # of an answer, by the number of degrees of freedom, FEW at least
 
 
-def _loose(parts: int) -> Fineness:
+def _coarse(parts: int) -> Fineness:
     return Fineness(1e-8, 1e-6, parts)
 
 
-def _tight(parts: int) -> Fineness:
+def _fine(parts: int) -> Fineness:
     return Fineness(1e-10, 1e-8, parts)
 
 
@@ -70,25 +70,25 @@ def limit(
     if reasons := with_step(own):
         raise NoLimit("; ".join(reasons))
     equations = Equations(own, start or own.start())
-    coarse = equations.followed(times, _loose(PARTS // 2))
-    fineness = _tight(PARTS)
+    coarse = equations.followed(times, _coarse(PARTS // 2))
+    fineness = _fine(PARTS)
     fine = equations.followed(times, fineness)
     while True:
-        off = np.abs(apart(own.model, coarse[:, : own.model.nq], fine[:, : own.model.nq]))
-        errors = np.maximum.accumulate(off.max(axis=1, initial=0.0))
+        moves = np.abs(joint_moves(own.model, coarse[:, : own.model.nq], fine[:, : own.model.nq]))
+        errors = np.maximum.accumulate(moves.max(axis=1, initial=0.0))
         affordable = MOST_STEPS / max(own.model.nv, FEW) / max(equations.steps, 1)
         if errors[-1] <= within or not equations.steps or affordable < 2:
             break
         finer = 2 ** math.floor(math.log2(min(2 * errors[-1] / within, affordable)))
         parts = fineness.parts * finer
-        coarse = fine if finer == 2 else equations.followed(times, _loose(parts // 2))
-        fineness = _tight(parts)
+        coarse = fine if finer == 2 else equations.followed(times, _coarse(parts // 2))
+        fineness = _fine(parts)
         fine = equations.followed(times, fineness)
     q, method = fine[:, : own.model.nq], equations.method
     return Limit(times, fine, q, errors, method, fineness, equations.acts)
 
 
-def repeated(own: OwnModel, exact: Limit, start: mujoco.MjData) -> Array:
+def repeat_limit(own: OwnModel, exact: Limit, start: mujoco.MjData) -> Array:
     """Returns y (N, k) from another start, integrated as finely as a limit. Raises NoLimit."""
     return Equations(own, start).followed(exact.times, exact.fineness)
 
@@ -122,8 +122,8 @@ def stepped_states(
     for name, value in options.items():
         setattr(model.opt, name, WORDS.get(name, {}).get(value, value))
     model.opt.timestep = h
-    begun = start or own.start()
-    data, controls = begun_as(model, begun), controls_of(own, begun)
+    origin = start or own.start()
+    data, controls = data_from(model, origin), controls_of(own, origin)
     done, states = 0, list[Array]()
     for step in np.rint(times / h).astype(int):
         if controls.laws:
@@ -167,7 +167,7 @@ PAIRS = (
 
 
 def apart_by_pairs(model: mujoco.MjModel) -> bool:
-    """Whether what `refsafe` makes of contacts at the model's own step can be written into none."""
+    """Whether `refsafe` raises the time constants of some geoms' contacts, and not of all."""
     collides = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     times = model.geom_solref[collides, 0]
     short = (times > 0) & (times < 2 * model.opt.timestep)

@@ -14,7 +14,7 @@ from ...cases.mistake import CaseError, Mistake
 from ...cases.trajectory import Array
 from ...cases.tree import BIAS, DRIVEN, MASS, PASSIVE, Tree
 from .control import Controls, Law
-from .numbers import named, numbers
+from .numbers import element_name, numbers
 from .places import Places, places
 from .release import actuators, column, mass_matrix
 
@@ -69,11 +69,11 @@ class OwnModel:
 
     @property
     def started(self) -> str:
-        """From where it is started, in words."""
+        """The start, in words."""
         if self.begins:
             return f"from {self.begins}"
         if self.model.nkey:
-            name = named(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
+            name = element_name(self.model, mujoco.mjtObj.mjOBJ_KEY, 0)
             return f"from its keyframe {name}, with the keyframe's controls"
         return f"from where it stands, with rates up to {RATE} rad/s and m/s drawn by chance"
 
@@ -90,10 +90,10 @@ class OwnModel:
         """Yields so many states about the start, with rates, and controls within their range."""
         random, start, m = np.random.default_rng(seed), self.start(), self.model
         low, high = m.actuator_ctrlrange.T if m.nu else (np.zeros(0), np.zeros(0))
-        bounded = np.array(m.actuator_ctrllimited, dtype=bool)
+        limited = np.array(m.actuator_ctrllimited, dtype=bool)
         for _ in range(count):
-            q = moved(m, start.qpos, random.uniform(-REACH, REACH, m.nv))
-            u = random.uniform(np.where(bounded, low, -1.0), np.where(bounded, high, 1.0))
+            q = displaced(m, start.qpos, random.uniform(-REACH, REACH, m.nv))
+            u = random.uniform(np.where(limited, low, -1.0), np.where(limited, high, 1.0))
             yield State(q, random.uniform(-RATE, RATE, m.nv), u)
 
     def parts(self, state: State) -> Mapping[str, Array]:
@@ -111,9 +111,9 @@ class OwnModel:
     def __str__(self) -> str:
         m = self.model
         integrator = mujoco.mjtIntegrator(m.opt.integrator).name.removeprefix("mjINT_")
-        counted = {"body": m.nbody - 1, "joint": m.njnt, "degree of freedom": m.nv}
-        counted |= {"actuator": actuators(m), "equality": m.neq}
-        words = ", ".join(_count(word, number) for word, number in counted.items() if number)
+        counts = {"body": m.nbody - 1, "joint": m.njnt, "degree of freedom": m.nv}
+        counts |= {"actuator": actuators(m), "equality": m.neq}
+        words = ", ".join(_count(word, number) for word, number in counts.items() if number)
         step = f"{m.opt.timestep * 1e3:.4g} ms, {integrator.lower()}"
         return (
             f"MuJoCo {mujoco.__version__} compiles it: {words or 'nothing moves'}; own step {step}"
@@ -147,10 +147,10 @@ def drawn_rates(model: mujoco.MjModel, most: float = RATE, seed: int = 0) -> Arr
     return np.random.default_rng(seed).uniform(-most, most, model.nv)
 
 
-def apart(model: mujoco.MjModel, one: Array, other: Array) -> Array:
-    """(N, n) [rad, m]: by how much each joint has to move from q (N, m) to the other."""
-    joints = np.empty((len(one), model.nv))
-    for row, a, b in zip(joints, one, other, strict=True):
+def joint_moves(model: mujoco.MjModel, start: Array, end: Array) -> Array:
+    """(N, n) [rad, m] displacement of each joint between two coordinates (N, m)."""
+    joints = np.empty((len(start), model.nv))
+    for row, a, b in zip(joints, start, end, strict=True):
         mujoco.mj_differentiatePos(model, row, 1.0, a, b)
     return joints
 
@@ -162,8 +162,8 @@ def image(model: mujoco.MjModel) -> bytes:
     return buffer.tobytes()
 
 
-def moved(model: mujoco.MjModel, q: Array, by: Array) -> Array:
-    """Returns coordinates q (m,), of which each joint is moved by (n,) [rad, m]."""
+def displaced(model: mujoco.MjModel, q: Array, by: Array) -> Array:
+    """Returns coordinates q (m,) displaced in each joint by (n,) [rad, m]."""
     other = np.array(q)
     mujoco.mj_integratePos(model, other, by, 1.0)
     return other
@@ -197,9 +197,9 @@ def compiled_by(
     except (ValueError, OSError, mujoco.FatalError) as error:
         words = " ".join(str(error).split())
         line = LINE.search(words)
-        said = f"MuJoCo {mujoco.__version__} does not compile it: {words}"
+        what = f"MuJoCo {mujoco.__version__} does not compile it: {words}"
         place = (int(line[1]), 1) if line else (0, 0)
-        raise CaseError([Mistake(file, *place, "", said)]) from None
+        raise CaseError([Mistake(file, *place, "", what)]) from None
     start = own.start()
     for name in ("qpos", "qvel", "act", "ctrl"):
         values = getattr(start, name)

@@ -56,21 +56,21 @@ def numbers(model: mujoco.MjModel, start: mujoco.MjData, places: Places) -> Tree
         np.array(m.dof_damping) if damps else np.zeros(m.nv),
         [*_springs(m, joints)] if springs else (),
         [_line(m, i, springs=springs, damps=damps) for i in fixed_tendons(m)],
-        [_motor(m, i) for i in range(actuators(m)) if acts and not _strange(m, i)],
-        _clamped(m),
+        [_motor(m, i) for i in range(actuators(m)) if acts and not _unread_actuator(m, i)],
+        _clamped_ranges(m),
         np.array([bool(m.jnt_actgravcomp[j]) for j in m.dof_jntid], dtype=bool),
         _unread(m, places),
     )
 
 
-def named(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
-    """Returns what an element is called; its number, if it has no name."""
+def element_name(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
+    """Returns the name of an element; its number, if it has none."""
     return mujoco.mj_id2name(model, kind, number) or f"#{number}"
 
 
 def element(m: mujoco.MjModel, places: Places, kind: mujoco.mjtObj, number: int) -> str:
     """Returns kind and name of an element, with its line where that is known."""
-    return places.after(f"{WORDS[kind]} {named(m, kind, number)}", (kind, number))
+    return places.after(f"{WORDS[kind]} {element_name(m, kind, number)}", (kind, number))
 
 
 def plugins(m: mujoco.MjModel) -> Iterator[tuple[mujoco.mjtObj, int]]:
@@ -95,7 +95,7 @@ def _link(m: mujoco.MjModel, start: mujoco.MjData, body: int) -> Link:
         place, attitude = start.mocap_pos[mocap], start.mocap_quat[mocap]
     first = m.body_jntadr[body]
     return Link(
-        named(m, OBJECT.mjOBJ_BODY, body),
+        element_name(m, OBJECT.mjOBJ_BODY, body),
         int(m.body_parentid[body]) - 1,
         np.array(place),
         np.array(attitude),
@@ -109,7 +109,7 @@ def _link(m: mujoco.MjModel, start: mujoco.MjData, body: int) -> Link:
 
 def _joint(m: mujoco.MjModel, j: int) -> TreeJoint:
     return TreeJoint(
-        named(m, OBJECT.mjOBJ_JOINT, j),
+        element_name(m, OBJECT.mjOBJ_JOINT, j),
         KINDS[int(m.jnt_type[j])],
         int(m.jnt_qposadr[j]),
         int(m.jnt_dofadr[j]),
@@ -144,7 +144,7 @@ def _sum(m: mujoco.MjModel, tendon: int) -> Array:
 
 def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
     return Line(
-        named(m, OBJECT.mjOBJ_TENDON, i),
+        element_name(m, OBJECT.mjOBJ_TENDON, i),
         _sum(m, i),
         (float(m.tendon_lengthspring[i, 0]), float(m.tendon_lengthspring[i, 1])),
         float(m.tendon_stiffness[i]) if springs else 0.0,
@@ -153,8 +153,8 @@ def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
     )
 
 
-def _strange(m: mujoco.MjModel, i: int) -> str:
-    """Returns what of an actuator is read by no equation here, in words; or nothing."""
+def _unread_actuator(m: mujoco.MjModel, i: int) -> str:
+    """Returns in words which feature of an actuator no equation here has; else empty."""
     target, transmission = m.actuator_trnid[i, 0], mujoco.mjtTrn(m.actuator_trntype[i])
     if m.actuator_plugin[i] >= 0:
         return "a plugin"
@@ -188,7 +188,7 @@ def _motor(m: mujoco.MjModel, i: int) -> Motor:
     off = m.opt.disableactuator & (1 << int(m.actuator_group[i])) if m.actuator_group[i] >= 0 else 0
     gain = np.array(m.actuator_gainprm[i, :3])
     return Motor(
-        named(m, OBJECT.mjOBJ_ACTUATOR, i),
+        element_name(m, OBJECT.mjOBJ_ACTUATOR, i),
         np.zeros(m.nv) if off else moments * m.actuator_gear[column(m, "actuator_outadr")[i], 0],
         int(control),
         gain if affine else gain * [1.0, 0.0, 0.0],
@@ -202,7 +202,7 @@ def _range(pair: Array, limited: bool) -> tuple[float, float]:
     return (float(pair[0]), float(pair[1])) if limited else (-np.inf, np.inf)
 
 
-def _clamped(m: mujoco.MjModel) -> Array:
+def _clamped_ranges(m: mujoco.MjModel) -> Array:
     bounds = np.tile([-np.inf, np.inf], (m.nv, 1))
     for j in np.flatnonzero(m.jnt_actfrclimited):
         if KINDS[int(m.jnt_type[j])] in ("slide", "hinge"):
@@ -211,7 +211,7 @@ def _clamped(m: mujoco.MjModel) -> Array:
 
 
 def _unread(m: mujoco.MjModel, places: Places) -> dict[str, list[str]]:
-    """Returns what the model has beside, by the part of the equations that lacks it."""
+    """Returns the elements that are not in the equations, by the part that lacks them."""
     unread: dict[str, list[str]] = {part: [] for part in PARTS}
     joint, tendon, actuator = OBJECT.mjOBJ_JOINT, OBJECT.mjOBJ_TENDON, OBJECT.mjOBJ_ACTUATOR
 
@@ -220,7 +220,7 @@ def _unread(m: mujoco.MjModel, places: Places) -> dict[str, list[str]]:
             unread[part].append(f"{element(m, places, kind, i)}: {what}")
 
     for i in range(actuators(m)):
-        if what := _strange(m, i):
+        if what := _unread_actuator(m, i):
             add(DRIVEN, actuator, [i], what)
     spatial = [i for i in range(m.ntendon) if i not in fixed_tendons(m)]
     pulls = (m.tendon_stiffness != 0) | (m.tendon_damping != 0)

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import mujoco
 import numpy as np
 
-from ...cases.fields.number import Amount, NumberMistake, fitting, turned
+from ...cases.fields.number import Amount, NumberMistake, check_angle, check_unit
 from ...cases.mistake import CaseError, Mistake, Path, nearest
 from ...cases.model_case import JOINTS, Law, ModelCase, ModelStart
 from ...cases.trajectory import Array
 from .model import OwnModel, compiled, compiled_text, drawn_rates, drawn_start
-from .numbers import named
+from .numbers import element_name
 from .quantities import Quantity, joint_quantities, quantities
 from .release import actuators, column
 
@@ -50,13 +50,13 @@ def opened(case: ModelCase) -> Opened:
         number = _number(model, OBJECT.mjOBJ_ACTUATOR, name, case, ("control", name), mistakes)
         if number is not None:
             laws[int(column(model, "actuator_ctrladr")[number])] = law
-    begun = _start(own, case, mistakes)
+    data = _start(own, case, mistakes)
     bars = dict(_bars(model, case, mistakes))
     if mistakes:
         raise CaseError(mistakes)
-    started = replace(own, laws=laws, begun=begun, begins=_begins(model, case.initial))
+    started = replace(own, laws=laws, begun=data, begins=_start_words(model, case.initial))
     for number in laws:
-        begun.ctrl[number] = started.controls.at(0.0)[number]
+        data.ctrl[number] = started.controls.at(0.0)[number]
     return Opened(started, bars)
 
 
@@ -69,10 +69,10 @@ def _compiled(case: ModelCase) -> OwnModel:
         return compiled(case.path)
     except CaseError as error:
         if not case.source.lines:  # the model is what was named
-            named = [replace(mistake, file=case.file) for mistake in error.mistakes]
-            raise CaseError(named) from None
-        told = [case.mistake(("model",), str(mistake)) for mistake in error.mistakes]
-        raise CaseError(told) from None
+            mistakes = [replace(mistake, file=case.file) for mistake in error.mistakes]
+            raise CaseError(mistakes) from None
+        mistakes = [case.mistake(("model",), str(mistake)) for mistake in error.mistakes]
+        raise CaseError(mistakes) from None
 
 
 def _number(
@@ -119,19 +119,19 @@ def _start(own: OwnModel, case: ModelCase, mistakes: list[Mistake]) -> mujoco.Mj
             if joint is None:
                 continue
             try:
-                _set(model, joint, numbers, into, rate=key == "rates")
+                _fill(model, joint, numbers, into, rate=key == "rates")
             except NumberMistake as error:
                 mistakes.append(case.mistake(path, str(error)))
     return data
 
 
-def _begins(model: mujoco.MjModel, initial: ModelStart) -> str:
+def _start_words(model: mujoco.MjModel, initial: ModelStart) -> str:
     """Returns in words from where a case starts; nothing, if it is as by default."""
     if initial == ModelStart():
         return ""
     words = "where it stands"
     if model.nkey or initial.keyframe:
-        words = f"its keyframe {initial.keyframe or named(model, OBJECT.mjOBJ_KEY, 0)}"
+        words = f"its keyframe {initial.keyframe or element_name(model, OBJECT.mjOBJ_KEY, 0)}"
     if initial.random_rates is not None:
         most, seed = initial.random_rates.most, initial.random_rates.seed
         words += f", with rates up to {most:g} drawn by chance (seed {seed})"
@@ -139,7 +139,7 @@ def _begins(model: mujoco.MjModel, initial: ModelStart) -> str:
     return f"{words}; {', '.join(over)} as its case says" if over else words
 
 
-def _set(
+def _fill(
     model: mujoco.MjModel, joint: int, numbers: Sequence[Amount], into: np.ndarray, *, rate: bool
 ) -> None:
     kind = int(model.jnt_type[joint])
@@ -151,7 +151,7 @@ def _set(
     unit = UNITS.get(kind)
     if unit is not None:
         unit = f"{unit}/s" if rate else unit
-        numbers = [turned(fitting(number, unit), unit) for number in numbers]
+        numbers = [check_angle(check_unit(number, unit), unit) for number in numbers]
     values = np.array([number.value for number in numbers], dtype=np.float64)
     if not rate and wide > 1:
         length = np.linalg.norm(values[-4:])
@@ -179,7 +179,7 @@ def _bars(
             continue
         quantity = known[name]
         try:
-            bars[quantity] = fitting(bar, quantity.unit or None).value
+            bars[quantity] = check_unit(bar, quantity.unit or None).value
         except NumberMistake as error:
             mistakes.append(case.mistake(path, str(error)))
     yield from bars.items()

@@ -43,11 +43,11 @@ def places(model: mujoco.MjModel, xml: str | Path | None, file: str) -> Places:
     lines: dict[Key, int] = {}
     for kind, elements in reader.elements.items():
         in_order = sorted(elements, key=lambda element: element[0])
-        named = [name for _, name, _ in in_order]
-        often, first = Counter(named), kind == OBJECT.mjOBJ_BODY  # whose first is the ground
+        names = [name for _, name, _ in in_order]
+        often, first = Counter(names), kind == OBJECT.mjOBJ_BODY  # whose first is the ground
         count = getattr(model, COUNTS[kind]) if kind in COUNTS else actuators(model)
         compiled = [mujoco.mj_id2name(model, kind, i) for i in range(first, count)]
-        whole = compiled == named and not reader.makes_more
+        whole = compiled == names and not reader.makes_more
         for number, (_, name, line) in enumerate(in_order, first):
             if whole:
                 lines[kind, number] = line

@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from ...cases.trajectory import Array
-from .model import OwnModel, apart
-from .numbers import WORDS, named
+from .model import OwnModel, joint_moves
+from .numbers import WORDS, element_name
 from .release import actuators, column
 
 Of = Literal["joint", "place", "turn", "sensor", "force", "energy"]
@@ -33,15 +33,15 @@ def quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
     """Yields all that can be bounded: joints, bodies, sensors, forces of actuators, energy."""
     yield from joint_quantities(model)
     for i in range(1, model.nbody):
-        name = called(model, OBJECT.mjOBJ_BODY, i)
+        name = label(model, OBJECT.mjOBJ_BODY, i)
         yield Quantity(f"{name}.place", "m", "place", i)
         yield Quantity(f"{name}.turn", "rad", "turn", i)
     for i in range(model.nsensor):
-        name = called(model, OBJECT.mjOBJ_SENSOR, i)
+        name = label(model, OBJECT.mjOBJ_SENSOR, i)
         first, wide = int(model.sensor_adr[i]), int(model.sensor_dim[i])
         yield Quantity(f"{name}.value", "", "sensor", first, wide)
     for i in range(actuators(model)):
-        name = called(model, OBJECT.mjOBJ_ACTUATOR, i)
+        name = label(model, OBJECT.mjOBJ_ACTUATOR, i)
         yield Quantity(f"{name}.force", "", "force", int(column(model, "actuator_outadr")[i]))
     yield Quantity("energy", "J", "energy")
 
@@ -49,7 +49,7 @@ def quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
 def joint_quantities(model: mujoco.MjModel) -> Iterator[Quantity]:
     """Yields those of the joints; a free one has a place and a turn."""
     for i in range(model.njnt):
-        name, first = called(model, OBJECT.mjOBJ_JOINT, i), int(model.jnt_dofadr[i])
+        name, first = label(model, OBJECT.mjOBJ_JOINT, i), int(model.jnt_dofadr[i])
         kind = int(model.jnt_type[i])
         for field, unit, shift, wide in FIELDS[kind]:
             yield Quantity(f"{name}.{field}", unit, "joint", first + shift, wide)
@@ -59,7 +59,7 @@ def coordinates(model: mujoco.MjModel) -> list[tuple[str, str]]:
     """Returns the name and the unit of each coordinate, in their order."""
     columns: list[tuple[str, str]] = []
     for i in range(model.njnt):
-        name = called(model, OBJECT.mjOBJ_JOINT, i)
+        name = label(model, OBJECT.mjOBJ_JOINT, i)
         columns += [
             (f"{name}.{field}", unit) for field, unit in COORDINATES[int(model.jnt_type[i])]
         ]
@@ -83,9 +83,9 @@ FIELDS = {
 """By a joint's type its quantities: name, unit, and which of its velocities move it."""
 
 
-def called(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
+def label(model: mujoco.MjModel, kind: mujoco.mjtObj, number: int) -> str:
     """Returns an element's name in a table; one that a table would misread stands in quotes."""
-    name = named(model, kind, number)
+    name = element_name(model, kind, number)
     if name.startswith("#"):
         return f"{WORDS[kind]} {number}"
     sound = (name[0].isalnum() or name[0] == "_") and not NUMBERED.fullmatch(name)
@@ -109,33 +109,33 @@ class Motion:
         return self.y[:, : self.own.model.nq]
 
 
-def differences(asked: Sequence[Quantity], a: Motion, b: Motion) -> dict[Quantity, Array]:
+def differences(selection: Sequence[Quantity], a: Motion, b: Motion) -> dict[Quantity, Array]:
     """Returns by quantity (N, k) how two motions differ, in components; of a turn the angle."""
-    by_joint = apart(a.own.model, a.q, b.q)
-    others = [quantity for quantity in asked if quantity.of != "joint"]
+    by_joint = joint_moves(a.own.model, a.q, b.q)
+    others = [quantity for quantity in selection if quantity.of != "joint"]
     ours, theirs = observed(others, a), observed(others, b)
-    found: dict[Quantity, Array] = {}
-    for quantity in asked:
+    by_quantity: dict[Quantity, Array] = {}
+    for quantity in selection:
         if quantity.of == "joint":
-            found[quantity] = by_joint[:, quantity.first : quantity.first + quantity.wide]
+            by_quantity[quantity] = by_joint[:, quantity.first : quantity.first + quantity.wide]
         elif quantity.of == "turn":
-            found[quantity] = _angles(ours[quantity], theirs[quantity])
+            by_quantity[quantity] = _angles(ours[quantity], theirs[quantity])
         else:
-            found[quantity] = theirs[quantity] - ours[quantity]
-    return found
+            by_quantity[quantity] = theirs[quantity] - ours[quantity]
+    return by_quantity
 
 
-def _angles(one: Array, other: Array) -> Array:
+def _angles(p: Array, q: Array) -> Array:
     """(N, 1) [rad]: the angles of the turns from attitudes (N, 4) to others."""
-    sign = np.sign(np.einsum("ij,ij->i", one, other))[:, None]
-    half = np.linalg.norm(one * sign - other, axis=1, keepdims=True) / 2
+    sign = np.sign(np.einsum("ij,ij->i", p, q))[:, None]
+    half = np.linalg.norm(p * sign - q, axis=1, keepdims=True) / 2
     return 4 * np.arcsin(np.minimum(half, 1.0))
 
 
-def observed(asked: Sequence[Quantity], motion: Motion) -> dict[Quantity, Array]:
+def observed(selection: Sequence[Quantity], motion: Motion) -> dict[Quantity, Array]:
     """Returns (N, k) by quantity, as MuJoCo computes it in the states."""
-    values: dict[Quantity, list[Array]] = {quantity: [] for quantity in asked}
-    if not asked:
+    values: dict[Quantity, list[Array]] = {quantity: [] for quantity in selection}
+    if not selection:
         return {}
     own, m = motion.own, copy.copy(motion.own.model)
     m.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY

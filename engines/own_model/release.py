@@ -39,31 +39,31 @@ def enabled(m: mujoco.MjModel, flag: str) -> bool:
     return bit is not None and bool(m.opt.enableflags & bit)
 
 
-def _each(m: mujoco.MjModel) -> Array:
+def _indices(m: mujoco.MjModel) -> Array:
     return np.arange(m.nu)
 
 
-def _all(rows: str, value: int, *wide: int) -> Callable[[mujoco.MjModel], Array]:
+def _filled(rows: str, value: int, *wide: int) -> Callable[[mujoco.MjModel], Array]:
     return lambda m: np.full((getattr(m, rows), *wide), value)
 
 
 ABSENT: Mapping[str, Callable[[mujoco.MjModel], Array]] = {
-    "actuator_ctrladr": _each,  # 3.12
-    "actuator_ctrlnum": _all("nu", 1),
-    "actuator_outadr": _each,
-    "actuator_delay": _all("nu", 0),  # 3.5
-    "actuator_history": _all("nu", 0, 1),
-    "sensor_delay": _all("nsensor", 0),
-    "sensor_history": _all("nsensor", 0, 1),
-    "actuator_armature": _all("nu", 0),  # 3.7
-    "actuator_damping": _all("nu", 0),
-    "actuator_dampingpoly": _all("nu", 0, 1),
-    "dof_dampingpoly": _all("nv", 0, 1),
-    "jnt_stiffnesspoly": _all("njnt", 0, 1),
-    "tendon_dampingpoly": _all("ntendon", 0, 1),
-    "tendon_stiffnesspoly": _all("ntendon", 0, 1),
-    "jnt_plasticadr": _all("njnt", -1),  # 4.0
-    "tendon_plasticadr": _all("ntendon", -1),
-    "flex_plasticadr": _all("nflex", -1),
+    "actuator_ctrladr": _indices,  # 3.12
+    "actuator_ctrlnum": _filled("nu", 1),
+    "actuator_outadr": _indices,
+    "actuator_delay": _filled("nu", 0),  # 3.5
+    "actuator_history": _filled("nu", 0, 1),
+    "sensor_delay": _filled("nsensor", 0),
+    "sensor_history": _filled("nsensor", 0, 1),
+    "actuator_armature": _filled("nu", 0),  # 3.7
+    "actuator_damping": _filled("nu", 0),
+    "actuator_dampingpoly": _filled("nu", 0, 1),
+    "dof_dampingpoly": _filled("nv", 0, 1),
+    "jnt_stiffnesspoly": _filled("njnt", 0, 1),
+    "tendon_dampingpoly": _filled("ntendon", 0, 1),
+    "tendon_stiffnesspoly": _filled("ntendon", 0, 1),
+    "jnt_plasticadr": _filled("njnt", -1),  # 4.0
+    "tendon_plasticadr": _filled("ntendon", -1),
+    "flex_plasticadr": _filled("nflex", -1),
 }
 """What a release before the one that brought a column means by having none."""

@@ -58,7 +58,7 @@ def _start(own: OwnModel) -> Iterator[str]:
     for name in STARTS:
         values = getattr(start, name)
         if values.tobytes() != getattr(fresh, name).tobytes():
-            yield f"data.{name}[:] = {_wrapped(values.tolist())}"
+            yield f"data.{name}[:] = {_literal(values.tolist())}"
 
 
 CONTACT = mujoco.mjtDisableBit.mjDSBL_CONTACT
@@ -69,7 +69,7 @@ def _loop(own: OwnModel, h: float, steps: int, every: int) -> Iterator[str]:
 
     def named(values: Sequence[float]) -> str:
         """Returns the name of an array, which is written down once."""
-        text = f"np.array({_wrapped([*values])})"
+        text = f"np.array({_literal([*values])})"
         if text not in tables:
             tables.append(text)
         return f"table_{tables.index(text)}"
@@ -99,7 +99,7 @@ LOOP = """\
 """
 
 
-def _wrapped(values: list[Any]) -> str:
+def _literal(values: list[Any]) -> str:
     return pformat(values, width=WIDTH, compact=True)
 
 

@@ -9,7 +9,7 @@ from ...cases.trajectory import Array
 from ...cases.tree import Motor
 from .limit import stepped_states
 from .model import BROKEN, OwnModel
-from .quantities import FIELDS, called
+from .quantities import FIELDS, label
 
 LONG = 20  # steps: a rate that changes its sign in each of so many is no turn of a motion
 
@@ -23,7 +23,7 @@ class Shake:
     ends: float
 
 
-def motion(own: OwnModel, end: float) -> tuple[Array, Array] | None:
+def motion_at_steps(own: OwnModel, end: float) -> tuple[Array, Array] | None:
     """Returns times (N,) [s] and y (N, k) at each of its own steps, or None where it diverges."""
     h = own.model.opt.timestep
     times = np.arange(int(end / h) + 1) * h
@@ -68,9 +68,9 @@ def shaking(own: OwnModel, times: Array, y: Array, bars: Array) -> dict[int, Sha
 def servos(own: OwnModel) -> dict[int, Motor]:
     """Returns by velocity the position servo that alone moves it, if it has one."""
     return {
-        int(moved[0]): motor
+        int(dofs[0]): motor
         for motor in own.tree.motors
-        if motor.bias[1] < 0 < motor.gain[0] and len(moved := np.flatnonzero(motor.moments)) == 1
+        if motor.bias[1] < 0 < motor.gain[0] and len(dofs := np.flatnonzero(motor.moments)) == 1
     }
 
 
@@ -91,4 +91,4 @@ def joint_of(model: mujoco.MjModel, dof: int) -> tuple[str, str]:
     within = dof - int(model.jnt_dofadr[joint])
     fields = FIELDS[int(model.jnt_type[joint])]
     unit = next(unit for _, unit, first, wide in fields if first <= within < first + wide)
-    return called(model, mujoco.mjtObj.mjOBJ_JOINT, joint), unit
+    return label(model, mujoco.mjtObj.mjOBJ_JOINT, joint), unit

@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 
 from ...cases.trajectory import Array
-from .equations import SLIGHT, begun_as, controls_of
+from .equations import SLIGHT, controls_of, data_from
 from .limit import Limit
 from .model import BROKEN, OwnModel
-from .quantities import Motion, Quantity, called, observed
+from .quantities import Motion, Quantity, label, observed
 from .release import actuators, column
 from .seen import Shake, shaking
 
@@ -53,7 +53,7 @@ def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | Non
     """
     times = exact.times[exact.times <= until]
     bounds, h = _bounds(own.model), own.model.opt.timestep
-    data, controls = begun_as(own.model, own.start()), controls_of(own, own.start())
+    data, controls = data_from(own.model, own.start()), controls_of(own, own.start())
     count = round(float(times[-1]) / h)
     states, touches = [_state(data)], np.zeros(len(bounds))
     for k in range(count):
@@ -62,7 +62,7 @@ def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | Non
         if any(int(data.warning[kind].number) for kind in BROKEN):
             return None
         states.append(_state(data))
-        touches += [_at(bound, data) for bound in bounds]
+        touches += [_at_bound(bound, data) for bound in bounds]
     y = np.array(states)
     at_limit: dict[str, float] = {}
     for bound, steps in zip(bounds, touches.tolist(), strict=True):
@@ -72,7 +72,7 @@ def signs(own: OwnModel, exact: Limit, until: float, bars: Array) -> Signs | Non
     return Signs(
         shaking(own, np.arange(count + 1) * h, y, bars),
         at_limit,
-        _lost(own, times, y[at], exact.y[: len(times)]),
+        _energy_lost(own, times, y[at], exact.y[: len(times)]),
         count * h,
         y[-1],
     )
@@ -98,7 +98,7 @@ def _bounds(m: mujoco.MjModel) -> list[_Bound]:
     def add(
         kind: mujoco.mjtObj, i: int, ends: Array, read: Callable[[mujoco.MjData], float]
     ) -> None:
-        bounds.append(_Bound(called(m, kind, i), float(ends[0]), float(ends[1]), read))
+        bounds.append(_Bound(label(m, kind, i), float(ends[0]), float(ends[1]), read))
 
     for i in range(actuators(m)):
         if m.actuator_forcelimited[i]:
@@ -115,13 +115,13 @@ def _bounds(m: mujoco.MjModel) -> list[_Bound]:
     return bounds
 
 
-def _at(bound: _Bound, data: mujoco.MjData) -> bool:
+def _at_bound(bound: _Bound, data: mujoco.MjData) -> bool:
     """Whether a force is at an end of its range; at an end that is 0 it only rests."""
     force, near = bound.read(data), BOUND * (bound.most - bound.least)
     return bool(force) and not bound.least + near < force < bound.most - near
 
 
-def _lost(own: OwnModel, times: Array, y: Array, exact: Array) -> Lost:
+def _energy_lost(own: OwnModel, times: Array, y: Array, exact: Array) -> Lost:
     energy = Quantity("energy", "J", "energy")
     ours, theirs = (observed([energy], Motion(own, times, each))[energy] for each in (exact, y))
     return Lost(times, (ours - theirs)[:, 0], _kinetic(own, exact))

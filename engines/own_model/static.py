@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 from .model import OwnModel
-from .numbers import named
-from .quantities import called
+from .numbers import element_name
+from .quantities import label
 from .release import mass_matrix
 
 STIFF = 2.0  # (kv + damping) h / M_eff: an explicit step of v̇ = −c v overshoots, and grows above it
@@ -33,8 +33,8 @@ class Suspicion:
 def suspicions(own: OwnModel) -> list[Suspicion]:
     """Returns all that is suspicious at the start, in milliseconds: joints, then time constants."""
     least = f"is below 2h = {SHORT * own.model.opt.timestep:.3g} s"
-    raised = [Suspicion(f"{name}: solref {time:.3g} s {least}") for name, time in short_times(own)]
-    return [*(_joints(own) if own.model.nv else ()), *raised]
+    short = [Suspicion(f"{name}: solref {time:.3g} s {least}") for name, time in short_times(own)]
+    return [*(_joints(own) if own.model.nv else ()), *short]
 
 
 def _joints(own: OwnModel) -> Iterator[Suspicion]:
@@ -48,33 +48,33 @@ def _joints(own: OwnModel) -> Iterator[Suspicion]:
     )
     ratio, fast = (kv + tree.damping) * h / mass, kp * h**2 / mass
     for k in map(int, np.argsort(-ratio)):
-        name = called(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[k]))
+        name = label(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[k]))
         if ratio[k] > STIFF:
-            told = f"(kv + damping) h / M_eff = {ratio[k]:.3g}, above {STIFF:g}"
-            yield Suspicion(f"{name}: {told}; {_explicit(m, kv[k])}", k)
+            why = f"(kv + damping) h / M_eff = {ratio[k]:.3g}, above {STIFF:g}"
+            yield Suspicion(f"{name}: {why}; {_damping_words(m, kv[k])}", k)
         if fast[k] > FAST and not tree.armature[k]:
-            told = f"no armature on a light link: kp h² / M_eff = {fast[k]:.3g}, above {FAST:g}"
-            yield Suspicion(f"{name}: {told}", k)
+            why = f"no armature on a light link: kp h² / M_eff = {fast[k]:.3g}, above {FAST:g}"
+            yield Suspicion(f"{name}: {why}", k)
         p = int(m.dof_parentid[k])
-        if p >= 0 and _alike(m, k, p) and mass[p] / mass[k] > APART:
-            other = called(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[p]))
-            told = f"{mass[p] / mass[k]:.2g} times smaller than that of {other}, above {APART:g}"
-            yield Suspicion(f"{name}: its M_eff is {told}", k)
+        if p >= 0 and _same_kind(m, k, p) and mass[p] / mass[k] > APART:
+            other = label(m, OBJECT.mjOBJ_JOINT, int(m.dof_jntid[p]))
+            why = f"{mass[p] / mass[k]:.2g} times smaller than that of {other}, above {APART:g}"
+            yield Suspicion(f"{name}: its M_eff is {why}", k)
 
 
-def _alike(m: mujoco.MjModel, k: int, p: int) -> bool:
+def _same_kind(m: mujoco.MjModel, k: int, p: int) -> bool:
     """Whether two velocities both turn or both shift, of joints that do no more than that."""
     kind, other = m.jnt_type[m.dof_jntid[[k, p]]]
     return kind == other and kind in ALONE
 
 
-def _explicit(m: mujoco.MjModel, kv: float) -> str:
+def _damping_words(m: mujoco.MjModel, kv: float) -> str:
     """Returns what the model's integrator makes of damping."""
     name = mujoco.mjtIntegrator(m.opt.integrator).name.removeprefix("mjINT_")
     if name.startswith("IMPLICIT"):
         return "implicit, but for a servo at its force limit" if kv else "implicit"
-    held = name == "EULER" and not m.opt.disableflags & DISABLED.mjDSBL_EULERDAMP
-    return f"{name} damps {'the joint' if held else 'nothing'} implicitly, and no servo"
+    implicit = name == "EULER" and not m.opt.disableflags & DISABLED.mjDSBL_EULERDAMP
+    return f"{name} damps {'the joint' if implicit else 'nothing'} implicitly, and no servo"
 
 
 def short_times(own: OwnModel, step: float | None = None) -> list[tuple[str, float]]:
@@ -82,17 +82,17 @@ def short_times(own: OwnModel, step: float | None = None) -> list[tuple[str, flo
 
     step [s]: by default its own.
     """
-    m, off = own.model, own.model.opt.disableflags
+    m, flags = own.model, own.model.opt.disableflags
     collides = (m.geom_contype != 0) | (m.geom_conaffinity != 0)
-    collides &= not off & DISABLED.mjDSBL_CONTACT
-    found: list[tuple[str, float]] = []
+    collides &= not flags & DISABLED.mjDSBL_CONTACT
+    short: list[tuple[str, float]] = []
     for kind, word, times, acts in (
         (OBJECT.mjOBJ_GEOM, "geom", m.geom_solref[:, 0], collides),
         (OBJECT.mjOBJ_JOINT, "limit of joint", m.jnt_solref[:, 0], m.jnt_limited != 0),
         (OBJECT.mjOBJ_EQUALITY, "equality", m.eq_solref[:, 0], m.eq_active0 != 0),
     ):
-        least = 0.0 if off & DISABLED.mjDSBL_REFSAFE else SHORT * (step or m.opt.timestep)
+        least = 0.0 if flags & DISABLED.mjDSBL_REFSAFE else SHORT * (step or m.opt.timestep)
         for i in map(int, np.flatnonzero((times > 0) & (times < least) & acts)):
-            name = own.places.after(f"{word} {named(m, kind, i)}", (kind, i))
-            found.append((name, float(times[i])))
-    return found
+            name = own.places.after(f"{word} {element_name(m, kind, i)}", (kind, i))
+            short.append((name, float(times[i])))
+    return short

@@ -1,4 +1,4 @@
-"""Names what of a model's law hangs on its step, or on a state beside q, v and act."""
+"""Names elements whose law depends on the step, or on a state other than q, v and act."""
 
 from collections.abc import Iterator
 
@@ -20,7 +20,7 @@ REASONS = {
 
 
 def with_step(own: OwnModel) -> list[str]:
-    """Returns what of a model's law hangs on its step, in words, with its elements."""
+    """Returns in words why a model's law depends on its step, with the elements."""
     elements: dict[str, list[str]] = {}
     for reason, name in _elements(own):
         elements.setdefault(reason, []).append(name)
@@ -36,8 +36,8 @@ def _elements(own: OwnModel) -> Iterator[tuple[str, str]]:
         yield "sleep", own.places.after("option", "sleep")
     actuator, sensor = OBJECT.mjOBJ_ACTUATOR, OBJECT.mjOBJ_SENSOR
     for reason, kind, has in (
-        ("delay", actuator, _late(m, "actuator")),
-        ("delay", sensor, _late(m, "sensor")),
+        ("delay", actuator, _has_delay(m, "actuator")),
+        ("delay", sensor, _has_delay(m, "sensor")),
         ("early", actuator, m.actuator_actearly),
         ("state", OBJECT.mjOBJ_JOINT, column(m, "jnt_plasticadr") >= 0),
         ("state", OBJECT.mjOBJ_TENDON, column(m, "tendon_plasticadr") >= 0),
@@ -49,5 +49,5 @@ def _elements(own: OwnModel) -> Iterator[tuple[str, str]]:
         yield "state", element(m, own.places, kind, i)
 
 
-def _late(m: mujoco.MjModel, word: str) -> np.ndarray:
+def _has_delay(m: mujoco.MjModel, word: str) -> np.ndarray:
     return (column(m, f"{word}_delay") != 0) | (column(m, f"{word}_history") != 0).any(axis=1)

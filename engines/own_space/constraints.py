@@ -66,7 +66,7 @@ def read_constraints(reading: Reading) -> None:
         if of is None:
             reading.refuse(place, "has no word")
             continue
-        _common(links, c, of, place)
+        _check_common(links, c, of, place)
         if of in JOINTS:
             JOINTS[of](links, c, name, place)
         else:
@@ -77,7 +77,7 @@ def read_constraints(reading: Reading) -> None:
             read(reading, c, name, place, joint, sense, offset)
 
 
-def _common(links: Links, c: Constraint, of: type, place: str) -> None:
+def _check_common(links: Links, c: Constraint, of: type, place: str) -> None:
     if c.pre_solve or c.post_solve:
         links.reading.refuse(place, "calls code of yours, which has no word")
     if c.max_force < inf and of not in BOUNDED:
@@ -92,7 +92,7 @@ def _ends(links: Links, c: Any, name: str, place: str, first: Any) -> tuple[str,
     )
 
 
-def _bounded(links: Links, c: Constraint, name: str, place: str) -> None:
+def _bound_force(links: Links, c: Constraint, name: str, place: str) -> None:
     if c.max_force < inf:
         at = f"needs more than its max_force, {c.max_force:g}"
         links.reading.withins.append(Within(f"{name}.force", -inf, c.max_force, place, at))
@@ -101,13 +101,13 @@ def _bounded(links: Links, c: Constraint, name: str, place: str) -> None:
 def _pivot(links: Links, c: PivotJoint, name: str, place: str) -> None:
     links.reading.joints[name] = {"pin": _ends(links, c, name, place, c.anchor_a)}
     links.turning.setdefault((links.part(c.a), links.part(c.b)), name)
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _rod(links: Links, c: PinJoint | SlideJoint, length: float, name: str, place: str) -> None:
     pair = _ends(links, c, name, place, c.anchor_a)
     links.reading.joints[name] = {"distance": pair, "length": length}
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _pin(links: Links, c: PinJoint, name: str, place: str) -> None:
@@ -123,18 +123,18 @@ def _slide(links: Links, c: SlideJoint, name: str, place: str) -> None:
     if c.min > 0.0:
         at = "comes to its min, at which nothing in a case file holds"
         links.reading.withins.append(Within(f"{name}.length", c.min, inf, place, at))
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _groove(links: Links, c: GrooveJoint, name: str, place: str) -> None:
     along = c.groove_b - c.groove_a
-    seen = along if links.part(c.a) else along.rotated(c.a.angle)
+    direction = along if links.part(c.a) else along.rotated(c.a.angle)
     pair = _ends(links, c, name, place, c.groove_a)
-    links.reading.joints[name] = {"slot": pair, "along": tuple(seen.normalized())}
+    links.reading.joints[name] = {"slot": pair, "along": tuple(direction.normalized())}
     links.turning.setdefault((links.part(c.a), links.part(c.b)), name)
     at = "comes to an end of its groove, at which nothing in a case file holds"
     links.reading.withins.append(Within(f"{name}.shift", 0.0, along.length, place, at))
-    _bounded(links, c, name, place)
+    _bound_force(links, c, name, place)
 
 
 def _spring(links: Links, c: DampedSpring, name: str, place: str) -> None:
@@ -151,7 +151,7 @@ def _spring(links: Links, c: DampedSpring, name: str, place: str) -> None:
 def _rotary_spring(
     r: Reading, c: DampedRotarySpring, name: str, place: str, joint: str, s: float, o: float
 ) -> None:
-    """pymunk's torque on b is c (a.angle − b.angle − rest_angle): it rests where b is that behind.
+    """Read a rotary spring: pymunk's torque on b is c (a.angle − b.angle − rest_angle).
 
     So φ rests at −s (rest_angle + o).
     """
@@ -175,7 +175,7 @@ def _limit(
 def _motor(
     r: Reading, c: SimpleMotor, name: str, place: str, joint: str, s: float, o: float
 ) -> None:
-    """pymunk's rate is that of a against b. With a bound, one that stands still rubs in its pin."""
+    """Read a motor: its rate is of a against b; bounded and at rest it is friction."""
     rate, now = -s * c.rate, s * (c.b.angular_velocity - c.a.angular_velocity)
     if f"{joint}.omega" in r.drive or "dry_friction" in r.joints[joint]:
         r.refuse(place, SECOND)
@@ -194,17 +194,17 @@ def _motor(
 
 
 def _gear(r: Reading, c: GearJoint, name: str, place: str, joint: str, s: float, o: float) -> None:
-    """With the ratio 1 it holds b.angle − a.angle: the pin is a weld then, and the slot a slide."""
+    """Read a gear: with the ratio 1 it makes a weld of a pin, and a slide of a slot."""
     if c.ratio != 1.0:
         r.refuse(place, f"has the ratio {c.ratio:g}, and only 1 has a word")
-    held = r.joints[joint]
-    if "angle" in held:
+    words = r.joints[joint]
+    if "angle" in words:
         r.refuse(place, SECOND)
-    if "pin" in held:
-        held["weld"] = held.pop("pin")
-    elif "slot" in held:
-        held["slide"] = held.pop("slot")
-    held["angle"] = f"{s * (c.phase - o)} rad"
+    if "pin" in words:
+        words["weld"] = words.pop("pin")
+    elif "slot" in words:
+        words["slide"] = words.pop("slot")
+    words["angle"] = f"{s * (c.phase - o)} rad"
 
 
 JOINTS: dict[type, Callable[..., None]] = {

@@ -110,11 +110,11 @@ def read_bodies(space: Space) -> Reading:
             if getattr(body, name) != plain:
                 reading.refuse(f"{place}.{name}", "calls code of yours, which has no word")
     for k, body in dynamic:
-        _begin(reading, f"space.bodies[{k}]", body)
+        _read_start(reading, f"space.bodies[{k}]", body)
     return reading
 
 
-def _begin(reading: Reading, place: str, body: Body) -> None:
+def _read_start(reading: Reading, place: str, body: Body) -> None:
     name = reading.names[body]
     reading.own_points[name] = {}
     (x, y), (vx, vy) = body.local_to_world(body.center_of_gravity), body.velocity

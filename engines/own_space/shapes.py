@@ -66,7 +66,7 @@ class Touch:
 
 def outlines(reading: Reading) -> list[Outline]:
     """Returns the shapes that can collide; those that cannot be read are refused."""
-    found = list[Outline]()
+    readable = list[Outline]()
     for k, shape in enumerate(reading.space.shapes):
         place, body = f"space.shapes[{k}]: {type(shape).__name__}", shape.body
         if shape.sensor:
@@ -84,10 +84,10 @@ def outlines(reading: Reading) -> list[Outline]:
             corners = [body.local_to_world(corner) for corner in corners]
         else:
             corners = [corner - body.center_of_gravity for corner in corners]
-        found.append(
+        readable.append(
             Outline(place, f"shape{k}", shape, name, (*corners,), getattr(shape, "radius", 0.0))
         )
-    return found
+    return readable
 
 
 def _corners(shape: Shape) -> list[Vec2d]:
@@ -99,52 +99,52 @@ def _corners(shape: Shape) -> list[Vec2d]:
     return shape.get_vertices()
 
 
-def colliding(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Outline]]:
-    """Returns each two that pymunk lets collide; of one that moves and one that does not, it first.
+def collisions(known: Sequence[Outline], space: Space) -> list[tuple[Outline, Outline]]:
+    """Returns each pair that pymunk lets collide, with a body of the scene first.
 
     As `cpSpaceStep` asks: not of one body, nor of two whose filters or joints forbid it.
     """
-    apart = [{c.a, c.b} for c in space.constraints if not c.collide_bodies]
+    exempt = [{c.a, c.b} for c in space.constraints if not c.collide_bodies]
     return [
-        (one, other) if one.body else (other, one)
-        for one, other in combinations(known, 2)
-        if one.body != other.body and {one.shape.body, other.shape.body} not in apart
-        if _meet(one.shape.filter, other.shape.filter)
+        (first, second) if first.body else (second, first)
+        for first, second in combinations(known, 2)
+        if first.body != second.body and {first.shape.body, second.shape.body} not in exempt
+        if _may_collide(first.shape.filter, second.shape.filter)
     ]
 
 
-def _meet(a: ShapeFilter, b: ShapeFilter) -> bool:
+def _may_collide(a: ShapeFilter, b: ShapeFilter) -> bool:
     in_one_group = a.group != 0 and a.group == b.group
     return not in_one_group and bool(a.categories & b.mask) and bool(b.categories & a.mask)
 
 
-def shaped(reading: Reading, known: Sequence[Outline]) -> Words:
+def body_shapes(reading: Reading, known: Sequence[Outline]) -> Words:
     """Returns the bodies in words: a disk, a block, a particle, or any rigid body with points."""
     return {
-        name: _shaped(body, [o for o in known if o.body == name], reading.own_points[name])
+        name: _body_words(body, [o for o in known if o.body == name], reading.own_points[name])
         for body, name in reading.names.items()
     }
 
 
-def _shaped(body: Body, own: list[Outline], points: Words) -> Words:
-    told = {"points": points} if points else {}
+def _body_words(body: Body, own: list[Outline], points: Words) -> Words:
+    rest = {"points": points} if points else {}
     if not turns(body):
         return {"particle": {"mass": body.mass}}
     if radius := _rim(own):
         if _alike(body.moment, body.mass * radius**2 / 2):
-            return {"disk": {"mass": body.mass, "radius": radius}, **told}
-        return {"rigid": {"mass": body.mass, "inertia": body.moment, "radius": radius}, **told}
+            return {"disk": {"mass": body.mass, "radius": radius}, **rest}
+        return {"rigid": {"mass": body.mass, "inertia": body.moment, "radius": radius}, **rest}
     if size := _box(own, body):
-        return {"block": {"mass": body.mass, "width": size[0], "height": size[1]}, **told}
-    return {"rigid": {"mass": body.mass, "inertia": body.moment}, **told}
+        return {"block": {"mass": body.mass, "width": size[0], "height": size[1]}, **rest}
+    return {"rigid": {"mass": body.mass, "inertia": body.moment}, **rest}
 
 
-def _alike(one: float, other: float) -> bool:
-    return abs(one - other) <= ALIKE * abs(other)
+def _alike(a: float, b: float) -> bool:
+    return abs(a - b) <= ALIKE * abs(b)
 
 
 def _rim(own: list[Outline]) -> float:
-    """The radius of what is one circle about its centre of mass, else 0."""
+    """The radius of a body that is one circle about its centre of mass, else 0."""
     round_ = len(own) == 1 and len(own[0].corners) == 1
     return own[0].radius if round_ and own[0].corners[0].length <= ALIKE * own[0].radius else 0.0
 
@@ -160,51 +160,51 @@ def _box(own: list[Outline], body: Body) -> tuple[float, float] | None:
     return (w, h) if square and _alike(body.moment, body.mass * (w**2 + h**2) / 12) else None
 
 
-def touches(
-    reading: Reading, known: Sequence[Outline], one: Outline, other: Outline
+def find_contacts(
+    reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
     """Returns the contacts of the two, of which the first moves; None where there is no word."""
-    if other.body is None:
-        return _on_ground(reading, known, one, other)
-    both = [_on_body(reading, known, *pair) for pair in ((one, other), (other, one))]
-    found = [touch for touch in both if touch]
-    return max(found, key=_over, default=None)
+    if second.body is None:
+        return _on_ground(reading, known, first, second)
+    both = [_on_body(reading, known, *pair) for pair in ((first, second), (second, first))]
+    candidates = [touch for touch in both if touch]
+    return max(candidates, key=_within_side, default=None)
 
 
 def _on_body(
     reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
-    """On a rim, or on the side of a box before which the first starts."""
+    """The contacts with a moving body: its rim, or the side of a box that faces the first."""
     body = second.shape.body
     assert body is not None
     own = [outline for outline in known if outline.body == second.body]
-    words, touched, side = _touching(reading, known, first), str(second.body), None
+    words, touched, side = _touch_points(reading, known, first), str(second.body), None
     if not (turns(body) and words):
         return None
     if _box(own, body):
-        side = _before(first, _sides(second))
+        side = _facing_side(first, _sides(second))
         turned = side.normal.rotated(-body.angle)
         touched += f".{max(FACES, key=lambda face: turned.dot(FACES[face].normal))}"
     elif not (_rim(own) and len(words) == 1):
         return None
-    told = {
-        f"{first.name}_on_{second.name}{end}": _words(first, second, word, touched)
+    contacts = {
+        f"{first.name}_on_{second.name}{end}": _contact_words(first, second, word, touched)
         for word, end in words.items()
     }
-    return Touch(first, second, told, {}, side)
+    return Touch(first, second, contacts, {}, side)
 
 
-def _over(touch: Touch) -> bool:
-    """Whether what of the first is nearest to the side is over it, and not past its ends."""
+def _within_side(touch: Touch) -> bool:
+    """Whether the corner of the first nearest to the side is within the side's ends."""
     if touch.side is None:
         return True
     side, along = touch.side, touch.side.ends - touch.side.begins
-    nearest = min(placed(touch.first), key=lambda c: (c - side.begins).dot(side.normal))
+    nearest = min(start_corners(touch.first), key=lambda c: (c - side.begins).dot(side.normal))
     return 0.0 <= (nearest - side.begins).dot(along) <= along.dot(along)
 
 
-def _words(first: Outline, second: Outline, touching: str, touched: str) -> Words:
-    """pymunk multiplies the frictions of two shapes, and their elasticities."""
+def _contact_words(first: Outline, second: Outline, touching: str, touched: str) -> Words:
+    """The words of a contact; pymunk multiplies frictions and elasticities of two shapes."""
     return {
         "between": (touching, touched),
         "friction": first.shape.friction * second.shape.friction,
@@ -212,8 +212,8 @@ def _words(first: Outline, second: Outline, touching: str, touched: str) -> Word
     }
 
 
-def _touching(reading: Reading, known: Sequence[Outline], outline: Outline) -> dict[str, str]:
-    """Returns the words for what of it touches, and with what the names of their contacts end."""
+def _touch_points(reading: Reading, known: Sequence[Outline], outline: Outline) -> dict[str, str]:
+    """Returns the points that touch, in words, each with the ending of its contact's name."""
     body, name = outline.shape.body, outline.body
     assert body is not None
     assert name is not None
@@ -225,36 +225,36 @@ def _touching(reading: Reading, known: Sequence[Outline], outline: Outline) -> d
     if outline.radius or any(_rim([other]) for other in own):
         return {}
     boxed = _box(own, body) is not None
-    found: dict[str, str] = {}
+    endings: dict[str, str] = {}
     for k, (x, y) in enumerate(outline.corners):
         point = CORNERS[2 * (y > 0) + (x > 0)] if boxed else f"{outline.name}_{k}"
         if not boxed:
             reading.own_points[name][point] = (x, y)
-        found[f"{name}.{point}"] = f"_{point}" if boxed else f"_{k}"
-    return found
+        endings[f"{name}.{point}"] = f"_{point}" if boxed else f"_{k}"
+    return endings
 
 
 def _on_ground(
     reading: Reading, known: Sequence[Outline], first: Outline, second: Outline
 ) -> Touch | None:
-    """On a plane; a body that cannot turn is a particle, and its plane so much farther out."""
+    """The contacts with the ground, on planes; a body that cannot turn is a particle."""
     sides, body = _sides(second), first.shape.body
     assert body is not None
     if not sides:
         return None
-    side = _before(first, sides)
+    side = _facing_side(first, sides)
     plane, at, named = f"{second.name}_{sides.index(side)}", side.begins, first.name
-    words = _touching(reading, known, first)
+    words = _touch_points(reading, known, first)
     if not turns(body):
         arms = [corner.rotated(body.angle).dot(side.normal) for corner in first.corners]
         at += (first.radius - min(arms)) * side.normal
         plane, words = f"{plane}_of_{first.name}", {str(first.body): ""}
-    told = {
-        f"{named}_on_{second.name}{end}": _words(first, second, word, f"{GROUND}.{plane}")
+    contacts = {
+        f"{named}_on_{second.name}{end}": _contact_words(first, second, word, f"{GROUND}.{plane}")
         for word, end in words.items()
     }
     planes = {plane: {"at": tuple(at), "normal": tuple(side.normal)}}
-    return Touch(first, second, told, planes, side) if told else None
+    return Touch(first, second, contacts, planes, side) if contacts else None
 
 
 def _sides(outline: Outline) -> list[Side]:
@@ -262,7 +262,7 @@ def _sides(outline: Outline) -> list[Side]:
 
     pymunk has corners counter-clockwise.
     """
-    corners = placed(outline)
+    corners = start_corners(outline)
     sides = list[Side]()
     for p, q in pairwise((*corners, corners[0])):
         normal = (q - p).normalized().rotated(-pi / 2)
@@ -271,8 +271,8 @@ def _sides(outline: Outline) -> list[Side]:
     return sides if len(corners) > 1 else []
 
 
-def placed(outline: Outline) -> list[Vec2d]:
-    """Where its corners are at the start, in ground axes."""
+def start_corners(outline: Outline) -> list[Vec2d]:
+    """The corners of an outline at the start, in ground axes."""
     body = outline.shape.body
     if outline.body is None or body is None:
         return [*outline.corners]
@@ -280,7 +280,7 @@ def placed(outline: Outline) -> list[Vec2d]:
     return [centre + corner.rotated(body.angle) for corner in outline.corners]
 
 
-def _before(outline: Outline, sides: list[Side]) -> Side:
-    """The side from which the outline is farthest, so that it is before it."""
-    corners = placed(outline)
+def _facing_side(outline: Outline, sides: list[Side]) -> Side:
+    """The side that faces the outline: the one with the largest clearance."""
+    corners = start_corners(outline)
     return max(sides, key=lambda s: min((c - s.begins).dot(s.normal) for c in corners))

@@ -1,4 +1,4 @@
-"""A Space → the data of a case file, and what in its motion would show that they are not enough."""
+"""Translates a Space into the data of a case file, and watches where these do not suffice."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -17,9 +17,9 @@ from ...cases.trajectory import Trajectory, X, Y
 from ..pymunk.model.contact import tip_radius
 from ..pymunk.settings.options import SHIPPED_STEP
 from .constraints import read_constraints
-from .meeting import DEEP, beside, depth, first_overlap
+from .meeting import DEEP, depth, first_overlap, past_end_times
 from .reading import Reading, read_bodies, turns
-from .shapes import Outline, Touch, colliding, outlines, placed, shaped, touches
+from .shapes import Outline, Touch, body_shapes, collisions, find_contacts, outlines, start_corners
 
 DURATION, SAMPLES = 1.0, 26
 TOLERANCE = 1e-3  # of the size of the motion, and of 1 rad
@@ -52,13 +52,13 @@ class Read:
 
     def data(self) -> dict[str, Any]:
         """The data of a case file; it bounds the place of the first body, and nothing else."""
-        r, told = self.reading, [touch for pair in self.met if (touch := self.pairs[pair])]
-        contacts = dict(chain.from_iterable(touch.contacts.items() for touch in told))
+        r, met = self.reading, [touch for pair in self.met if (touch := self.pairs[pair])]
+        contacts = dict(chain.from_iterable(touch.contacts.items() for touch in met))
         scene = {
             "gravity": tuple(r.space.gravity),
             "points": r.points,
-            "planes": dict(chain.from_iterable(touch.planes.items() for touch in told)),
-            "bodies": shaped(r, self.known),
+            "planes": dict(chain.from_iterable(touch.planes.items() for touch in met)),
+            "bodies": body_shapes(r, self.known),
             "joints": r.joints,
             "contacts": {name: x for name, x in contacts.items() if name not in self.astray},
             "forces": r.forces,
@@ -74,7 +74,7 @@ class Read:
         }
 
     def seen(self, scene: Scene, motion: Trajectory) -> "Read":
-        """With what the motion first shows to lack: a contact more, or one less that is astray.
+        """Returns the reading with the first contact that the motion shows to be missing or astray.
 
         Itself, where it lacks nothing; what has no word, or leaves its bounds, is refused then.
         """
@@ -84,17 +84,17 @@ class Read:
             name: time
             for pair in self.met
             if (touch := self.pairs[pair])
-            for name, time in beside(scene, motion, touch, size).items()
+            for name, time in past_end_times(scene, motion, touch, size).items()
         }
         first = min(chain(meets.values(), strays.values()), default=never)
         if first < never:
-            found = [pair for pair, time in meets.items() if time == first]
-            if wrong := [pair for pair in found if pair in self.met or not self.pairs[pair]]:
+            pairs = [pair for pair, time in meets.items() if time == first]
+            if wrong := [pair for pair in pairs if pair in self.met or not self.pairs[pair]]:
                 for pair in wrong:
                     self._no_word(*pair, first)
                 return self
             astray = {name: time for name, time in strays.items() if time == first}
-            return replace(self, met=[*self.met, *found], astray={**astray, **self.astray})
+            return replace(self, met=[*self.met, *pairs], astray={**astray, **self.astray})
         for bound in self.reading.withins:
             values = observe(scene, motion, bound.quantity)
             slack = DEEP * max(abs(x) for x in (bound.low, bound.high) if abs(x) < never)
@@ -104,11 +104,11 @@ class Read:
                 self.reading.refuse(bound.place, f"{bound.at}, at t = {at:.3g} s")
         return self
 
-    def _no_word(self, one: Outline, other: Outline, time: float) -> None:
-        touch, why = self.pairs[one, other], "in a way that has no word"
+    def _no_word(self, first: Outline, second: Outline, time: float) -> None:
+        touch, why = self.pairs[first, second], "in a way that has no word"
         if past := [t for name, t in self.astray.items() if touch and name in touch.contacts]:
             time, why = min(past), "and goes past its end, which has no word"
-        self.reading.refuse(one.place, f"meets {other.place} at t = {time:.3g} s, {why}")
+        self.reading.refuse(first.place, f"meets {second.place} at t = {time:.3g} s, {why}")
 
     def claims(
         self, scene: Scene, motion: Trajectory, ajar: float, stays: Callable[[str], bool]
@@ -141,7 +141,7 @@ class Read:
         }
 
     def _round(self, scene: Scene, contact: str) -> bool:
-        """Whether a rim touches, and no corner or particle."""
+        """Whether a contact is with a rim, not with a corner or a particle."""
         touching = (scene.contacts if contact in scene.contacts else scene.pairs)[contact]
         return scene.bodies[touching.body].radius is not None
 
@@ -158,8 +158,8 @@ class Read:
             if getattr(owner, name) != getattr(usual, name)
         }
         if other:
-            told = ", ".join(f"{name}: {number!r}" for name, number in other.items())
-            yield f"with its solver's numbers it runs by --settings FILE: pymunk: {{{told}}}"
+            options = ", ".join(f"{name}: {number!r}" for name, number in other.items())
+            yield f"with its solver's numbers it runs by --settings FILE: pymunk: {{{options}}}"
         if through:
             yield (
                 f"corners land faster than {through:g} a second, and in steps of "
@@ -170,7 +170,7 @@ class Read:
             yield "nothing falls asleep"
 
     def size(self, motion: Trajectory) -> float:
-        """How far [m] from corner to corner the motion reaches, with all that moves and holds.
+        """Diagonal [m] of the region that the motion and its anchors cover.
 
         At least a radius of gyration; 1 where nothing has a size.
         """
@@ -179,7 +179,7 @@ class Read:
         places += [np.array([point]) for point in fixed]
         for outline in self.known:
             if outline.body:
-                corners = np.array(placed(outline))
+                corners = np.array(start_corners(outline))
                 places += [corners - outline.radius, corners + outline.radius]
         every = np.concatenate(places)
         arms = [sqrt(body.moment / body.mass) for body in self.reading.names if turns(body)]
@@ -187,18 +187,18 @@ class Read:
         return size if size > DEEP * float(np.max(np.abs(every))) else 1.0
 
 
-def read(space: Space) -> Read:
-    """Returns what is read of a Space."""
+def read_space(space: Space) -> Read:
+    """Reads a Space into the words of a case file."""
     reading = read_bodies(space)
     read_constraints(reading)
     known = outlines(reading)
-    told = {pair: touches(reading, known, *pair) for pair in colliding(known, space)}
+    pairs = {pair: find_contacts(reading, known, *pair) for pair in collisions(known, space)}
     touch = list[Pair]()
-    for one, other in told:
-        deep, rounding = depth(one, other)
+    for first, second in pairs:
+        deep, rounding = depth(first, second)
         if deep > rounding:
-            what = f"is {deep:.3g} deep in {other.place} at the start, which pymunk would part"
-            reading.refuse(one.place, f"{what}: a filter can say that they pass")
+            what = f"is {deep:.3g} deep in {second.place} at the start, which pymunk would part"
+            reading.refuse(first.place, f"{what}: a filter can say that they pass")
         elif deep >= -rounding:
-            touch.append((one, other))
-    return Read(reading, known, told, touch)
+            touch.append((first, second))
+    return Read(reading, known, pairs, touch)

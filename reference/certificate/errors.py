@@ -8,7 +8,7 @@ import numpy as np
 from ...cases.case import Case
 from ...cases.fields.kind import WORK
 from ...cases.mistake import Mistake
-from ...cases.scene.difference import apart
+from ...cases.scene.difference import deviation
 from ...cases.scene.observe import observe
 from ...cases.scene.quantity import at_event, event_quantities
 from ...cases.trajectory import Array, Trajectory
@@ -76,7 +76,7 @@ def _bound(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], nam
 def _error(case: Case, motion: Trajectory, others: Mapping[str, Trajectory], name: str) -> float:
     """Largest difference of a quantity's samples from those of the other answers."""
     own = observe(case.scene, motion, name)
-    differences = [apart(own, observe(case.scene, other, name)) for other in others.values()]
+    differences = [deviation(own, observe(case.scene, other, name)) for other in others.values()]
     size, quantity = worst(np.abs(own).ravel()), case.quantities[name]
     columns = case.scene.frame.alike(quantity.unit)
     if quantity.kind == "force":

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from ...cases.case import Case
 from ...cases.scene import Anchor, Contact, Joint, Limit, Scene
-from ...cases.scene.forces.force import Spring, of
 from ...cases.scene.motion import Motion
 from ...cases.scene.observe import motion_of
 from ...cases.scene.pair import Pair
@@ -138,7 +137,7 @@ def one_sided_checks(
 
 def _at_their_length(scene: Scene, answer: Answer, size: Size) -> Iterator[float]:
     """Yields the distances of one-sided springs from their rest length where they switch."""
-    springs = {spring.name: spring for spring in of(Spring, scene.forces.values()) if spring.only}
+    springs = {spring.name: spring for spring in scene.one_sided()}
     for change in answer.followed.changes:
         name, _, word = (change.name or "").rpartition(" ")
         if name in springs and word in ("tightens", "slackens"):

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...cases.scene import Scene
 from ...cases.scene.chain import Turns
-from ...cases.scene.counting import THREE, far
+from ...cases.scene.counting import THREE, ambiguous_turns
 from ...cases.scene.frame import SPACE
 from ...cases.scene.observe import motion_of
 from ...cases.trajectory import Trajectory
@@ -88,7 +88,7 @@ def counted(scene: Scene, system: System, followed: Followed) -> Counted:
     bare = [_poses(system, followed, row) for row in rows]
     times, by_joint = _count_turns(scene, joints, rows, bare)
     for _ in range(ROUNDS):
-        wide = np.any([far(turns, times) for turns in by_joint.values()], axis=0)
+        wide = np.any([ambiguous_turns(turns, times) for turns in by_joint.values()], axis=0)
         if not wide.any():
             break
         rows, bare = _refine(system, followed, rows, bare, wide.tolist())

@@ -61,7 +61,7 @@ class SpatialClosure(Closure):
             return
         a, b = (self.attitude(at.body, q) for at in joint.refers())
         axes = [freedom.axis for freedom in joint.turns]
-        ways = chain.turned_by(axes, a[None], STILL, b[None], STILL)
+        ways = chain.turn_solutions(axes, a[None], STILL, b[None], STILL)
         angles = counted(ways, np.zeros(1), joint.begun).angles[0].tolist()
         columns, so_far = [], np.array(UPRIGHT)
         for axis, angle in zip(axes, angles, strict=True):
@@ -245,7 +245,7 @@ class SpatialClosure(Closure):
                 continue
             made = self.attitude(joint.name, q)[None]
             axes = [turn.axis for turn in joint.turns]
-            first, *_ = chain.turned_by(axes, UP, STILL, made, STILL)
+            first, *_ = chain.turn_solutions(axes, UP, STILL, made, STILL)
             _, turn, _ = self.turns(joint, q)
             count += abs(math.remainder(turn.value - float(first.angles[0, 1]), math.tau)) > REACHED
         return count

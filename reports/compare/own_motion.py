@@ -10,7 +10,7 @@ import numpy as np
 
 from ...cases.tree import MOTION
 from ...engines.own_model.limit import Limit
-from ...engines.own_model.model import OwnModel, apart
+from ...engines.own_model.model import OwnModel, joint_moves
 from ...reference.formalisms.tree_motion import TreeMotion, tree_motion
 from .own_equations import ROUNDING, Part
 from .own_steps import DISTURBED, disturbed
@@ -59,9 +59,9 @@ def _compared(part: Part, own: OwnModel, limit: Limit, exact: TreeMotion) -> Par
     if count < len(limit.times):
         part.because = f"not compared from {exact.times[-1]:.3g} s on: it takes too long"
     q = limit.q[:count]
-    off = np.abs(apart(own.model, exact.q, q))
+    off = np.abs(joint_moves(own.model, exact.q, q))
     other = disturbed(own, replace(limit, times=exact.times))[:, : own.model.nq]
-    grown = np.abs(apart(own.model, q, other)).max(axis=1) * (ROUNDING / DISTURBED)
+    grown = np.abs(joint_moves(own.model, q, other)).max(axis=1) * (ROUNDING / DISTURBED)
     bound = limit.errors[:count] + exact.errors + np.maximum.accumulate(grown)
     far = off.max(axis=1)
     over = np.flatnonzero(~(far <= bound))

@@ -19,10 +19,10 @@ from ...engines.own_model.limit import (
     Limit,
     apart_by_pairs,
     limit,
-    repeated,
+    repeat_limit,
     stepped_states,
 )
-from ...engines.own_model.model import OwnModel, moved
+from ...engines.own_model.model import OwnModel, displaced
 from ...engines.own_model.opened import Opened
 from ...engines.own_model.quantities import Motion, Quantity, differences
 from .judge.convergence import Convergence, instants, study
@@ -195,8 +195,8 @@ def disturbed(own: OwnModel, exact: Limit) -> Array:
     """Returns y (N, k) as a limit has it, of a start of which each joint is off by DISTURBED."""
     start = own.start()
     by = np.random.default_rng(0).choice((-DISTURBED, DISTURBED), own.model.nv)
-    start.qpos[:] = moved(own.model, start.qpos, by)
-    return repeated(own, exact, start)
+    start.qpos[:] = displaced(own.model, start.qpos, by)
+    return repeat_limit(own, exact, start)
 
 
 def in_setting(opened: Opened, setting: Setting, exact: Limit, until: float) -> Stepped:

@@ -11,7 +11,7 @@ import pandas as pd
 
 from ...cases.case import Case
 from ...cases.mistake import CaseError, Mistake
-from ...cases.scene.difference import apart
+from ...cases.scene.difference import deviation
 from ...cases.scene.frame import PLANE, SPACE
 from ...cases.scene.observe import observe
 from ...cases.scene.states import MASS_MATRIX
@@ -86,7 +86,7 @@ def _motions(report: Report, case: Case) -> pd.DataFrame:
 
 def _angles(samples: Array) -> Array:
     """Returns numbers as they are, and of an attitude the angle from its first."""
-    return samples if samples.ndim == 1 else apart(samples, samples[:1])
+    return samples if samples.ndim == 1 else deviation(samples, samples[:1])
 
 
 def _events(report: Report, case: Case) -> pd.DataFrame:

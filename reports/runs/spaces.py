@@ -89,7 +89,7 @@ def space_case(
     Its motion is computed once to see what meets. Raises CaseError with what has no word in a case
     file, by its place in the Space.
     """
-    from ...engines.own_space.space import Read, read
+    from ...engines.own_space.space import Read, read_space
 
     def loaded(data: Mapping[str, Any]) -> Case:
         document = Document(Source(file, (), {}), dict(data), [])
@@ -101,7 +101,7 @@ def space_case(
             raise CaseError([Mistake(file, 0, 0, place, what) for place, what in entries.refused])
         return entries
 
-    entries = sound(read(space))
+    entries = sound(read_space(space))
     try:
         while True:
             case = loaded(entries.data())

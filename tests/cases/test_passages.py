@@ -13,7 +13,7 @@ from given import scenes
 
 from textmech.cases.scene import Anchor, Scene, difference, planar_joint, rotation, shape, solid
 from textmech.cases.scene import passages as module
-from textmech.cases.scene.difference import apart, from_reference
+from textmech.cases.scene.difference import deviation, from_reference
 from textmech.cases.scene.frame import PLANE, SPACE, Frame
 from textmech.cases.scene.observe import observe
 from textmech.cases.scene.passages import passing, pieces, polynomial
@@ -195,7 +195,7 @@ def far() -> tuple[float, float]:
     for a, b in ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, signs(len(ANGLES)))):
         found = from_reference(b * other, a * one)
         turn = max(turn, float(np.max(np.abs(found - ANGLES[:, None] * AXIS))))
-        angle = max(angle, float(np.max(np.abs(apart(a * one, b * other) - ANGLES))))
+        angle = max(angle, float(np.max(np.abs(deviation(a * one, b * other) - ANGLES))))
     return angle, turn
 
 
@@ -206,7 +206,7 @@ def test_the_turn_between_two_attitudes() -> None:
 
 def test_numbers_are_told_as_they_are() -> None:
     one, other = np.array([1.0, -2.0]), np.array([1.5, -2.25])
-    assert apart(one, other).tolist() == [0.5, 0.25]
+    assert deviation(one, other).tolist() == [0.5, 0.25]
     assert from_reference(one, other) is one
 
 
@@ -261,7 +261,7 @@ def test_what_is_observed_does_not_know_the_sign_of_a_quaternion(name: str) -> N
     for quantity in (q for q in case.allow if q in table(case.scene)):
         own = observe(case.scene, motion, quantity)
         size = 1.0 + float(np.max(np.abs(own)))
-        assert np.max(apart(own, observe(case.scene, other, quantity))) < 1e-13 * size, quantity
+        assert np.max(deviation(own, observe(case.scene, other, quantity))) < 1e-13 * size, quantity
 
 
 @pytest.mark.slow

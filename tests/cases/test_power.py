@@ -20,7 +20,7 @@ from textmech.cases.scene.forces.turning import Motor, Torsion, TorsionDamper
 from textmech.cases.scene.joint import Joint
 from textmech.cases.scene.motion import Motion
 from textmech.cases.scene.observe import observe
-from textmech.cases.scene.power import done, pieces
+from textmech.cases.scene.power import pieces, work_done
 from textmech.cases.trajectory import Trajectory
 from textmech.reference.solve import Solution, solve
 
@@ -39,7 +39,7 @@ WRONG = 0.1  # of what is done, at least: where a sign is turned
 
 def summed(times: Any, power: Callable[[Any], Any], *corners: float) -> Any:
     """Work of a power in time alone."""
-    return done(Trajectory(times, {}, {}), corners, lambda rows: power(rows.times))
+    return work_done(Trajectory(times, {}, {}), corners, lambda rows: power(rows.times))
 
 
 def test_polynomials_of_the_fifth_degree_are_summed_exactly() -> None:

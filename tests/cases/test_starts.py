@@ -253,17 +253,17 @@ def test_a_joint_decides() -> None:
     blind = otherwise(resolve, "        *scene.joints.values(),\n", "")
     case = thrown(more="  joints: {pin: {pin: [ground.O, ball.P]}}")
     assert "angle" not in case.initial["ball"].given
-    assert "angle" in blind._turned(dict(case.initial), case.scene, {})["ball"].given
+    assert "angle" in blind._with_free_attitudes(dict(case.initial), case.scene, {})["ball"].given
 
 
 @pytest.mark.mutant("a disk's angle starts at 0 where a spring winds by it")
 def test_what_winds_decides() -> None:
-    blind = otherwise(resolve, "not (said or winds or driven)", "not (said or driven)")
+    blind = otherwise(resolve, "not (has_start or winds or driven)", "not (has_start or driven)")
     case = thrown(
         more=f"{AXLE}\n  forces: {{wire: {{torsion: axle, stiffness: 1, rest_angle: 0}}}}"
     )
     assert "angle" not in case.initial["ball"].given
-    assert "angle" in blind._turned(dict(case.initial), case.scene, {})["ball"].given
+    assert "angle" in blind._with_free_attitudes(dict(case.initial), case.scene, {})["ball"].given
 
 
 SPHERE = """\

@@ -164,5 +164,5 @@ def test_a_radian_is_one_beside_a_mass(value: object, unit: str, size: float) ->
 
 @pytest.mark.mutant("an angle of many turns is taken for what it says")
 def test_degrees_that_are_meant_are_asked_for() -> None:
-    blind = otherwise(number, "abs(found.value) > TURN", "abs(found.value) > 1e9")
+    blind = otherwise(number, "abs(given.value) > TURN", "abs(given.value) > 1e9")
     assert blind.number(45.0, "rad", Names()).value == 45.0

@@ -22,7 +22,7 @@ from given.adapters.planning import (
 )
 
 from textmech.cases.scene import Damper, Scene, Spring, Torsion, TorsionDamper
-from textmech.cases.scene.forces.force import of
+from textmech.cases.scene.forces.force import of_kind
 from textmech.cases.scene.frame import PLANE
 from textmech.cases.scene.shape import bar, particle
 from textmech.cases.trajectory import Trajectory
@@ -58,10 +58,10 @@ def elements(scene: Scene) -> dict[str, float]:
     found |= {f"{d.name}.damping": d.damping for d in scene.dampers()}
     for limit in scene.limits():
         found |= {f"{limit.name}.{key}": number for key, number in limit.numbers().items()}
-    for wire in of(Torsion, scene.forces.values()):
+    for wire in of_kind(Torsion, scene.forces.values()):
         found[f"{wire.name}.stiffness"] = wire.stiffness
         found[f"{wire.name}.rest_angle"] = wire.rest_angle
-    found |= {f"{d.name}.damping": d.damping for d in of(TorsionDamper, scene.forces.values())}
+    found |= {f"{d.name}.damping": d.damping for d in of_kind(TorsionDamper, scene.forces.values())}
     return found
 
 

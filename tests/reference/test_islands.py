@@ -203,12 +203,12 @@ def test_a_joining_that_is_forgotten_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
     """Each answer of an island agrees with itself: only the whole scene knows of the spring."""
-    real = graph._acting
+    real = graph._connections
 
     def forgets(scene: Scene) -> Iterator[Any]:
         return ((name, () if name in scene.forces else ends) for name, ends in real(scene))
 
-    monkeypatch.setattr(graph, "_acting", forgets)
+    monkeypatch.setattr(graph, "_connections", forgets)
     case = typed(tmp_path, text)
     solution = solve(replace(case, allow={k: v for k, v in case.allow.items() if k != "s.force"}))
     (broken,) = (check for check in solution.checks if not check.holds)

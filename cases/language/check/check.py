@@ -4,11 +4,11 @@ from collections.abc import Iterator, Mapping
 from math import ceil, inf, isfinite, isnan
 from typing import Any
 
-from ...fields.number import named_in
+from ...fields.number import parameters_in
 from ...mistake import Path, nearest
 from ...scene import Scene
 from ...scene.forces.drag import Drag
-from ...scene.forces.force import of
+from ...scene.forces.force import of_kind
 from ...scene.frame import SPACE
 from ...scene.joint import Joint
 from ...scene.point import GROUND
@@ -18,7 +18,7 @@ from ..grammar.file import File
 from ..parse import Finding, Parsed
 from .claims import claims
 from .engines import Engines, engines
-from .links import links, twice
+from .links import duplicate_names, links
 
 _NO_USE = ("title", "source", "parameters", "drops_out")  # where a name is not a use of it
 
@@ -33,12 +33,12 @@ def check(
 ) -> Iterator[Finding]:
     """Every mistake between the sound parts; `data` is the whole file as it was written."""
     yield from links(parsed, scene)
-    yield from slowing(parsed, scene)
+    yield from stopping_drags(parsed, scene)
     if known is not None:
         yield from engines(parsed.file, known)
     unfit = [] if parsed.file.states is None else [*states(parsed, scene)]
     yield from unfit
-    if not any(twice(parsed)) and not unfit and not parsed.lacks("states"):
+    if not any(duplicate_names(parsed)) and not unfit and not parsed.lacks("states"):
         yield from claims(parsed, scene)
     if not parsed.lacks("duration") and not parsed.lacks("samples") and not parsed.lacks("step"):
         yield from sampling(parsed.file, known)
@@ -57,7 +57,7 @@ def _parameters(
             yield ("drops_out", i), f"unknown parameter {name!r}{nearest(name, given)}"
     if file.system is None:
         texts = _texts({k: v for k, v in data.items() if k not in _NO_USE})
-        used = set().union(*(named_in(text, file.parameters) for text in texts))
+        used = set().union(*(parameters_in(text, file.parameters) for text in texts))
         for name in file.parameters:
             if name not in used:
                 yield ("parameters", name), "no one uses this parameter"
@@ -87,11 +87,11 @@ def _texts(data: object) -> set[str]:
 # Friction that ends any motion in a finite time: a claim about states may have it.
 
 
-def slowing(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Yields drags that would stop a motion's points anywhere; the motion itself shows the rest."""
+def stopping_drags(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
+    """Yields drags whose exponent would stop a motion in a finite time."""
     if parsed.file.states is not None or parsed.lacks("states"):
         return
-    for force in of(Drag, scene.forces.values()):
+    for force in of_kind(Drag, scene.forces.values()):
         path = ("scene", "forces", force.name, "exponent")
         if force.exponent == 0.0:
             yield path, "must be above 0 in a motion: with 0 it would be dry friction"
@@ -116,31 +116,31 @@ def sampling(file: File, known: Engines | None) -> Iterator[Finding]:
     steps = tuple(by_engine.values())
     if any(isnan(number) for number in (file.duration, *steps)):
         return  # a mistaken number, found elsewhere
-    if _fits(file.duration, file.samples, steps):
+    if _divides(file.duration, file.samples, steps):
         return
     below = range(file.samples - 1, max(2, file.samples - _SEARCHED), -1)
     above = range(file.samples + 1, file.samples + _SEARCHED)
     near = [
-        next((n for n in counts if _fits(file.duration, n, steps)), None)
+        next((n for n in counts if _divides(file.duration, n, steps)), None)
         for counts in (below, above)
     ]
-    found = " or ".join(str(n) for n in near if n is not None)
+    better = " or ".join(str(n) for n in near if n is not None)
     interval = file.duration / (file.samples - 1)
-    if not found and (off := _off(by_engine, interval)):
-        path, better = off
-        yield path, f"4 h should divide the sample interval {interval:.6g} s: {better:g} s does"
+    if not better and (off := _step_mistake(by_engine, interval)):
+        path, smaller = off
+        yield path, f"4 h should divide the sample interval {interval:.6g} s: {smaller:g} s does"
         return
     yield (
         ("samples",),
         f"the sample interval {interval:.6g} s is not a whole multiple of 4 h for every step h; "
-        + (f"samples: {found} would be" if found else "no count near it is: change the duration"),
+        + (f"samples: {better} would be" if better else "no count near it is: change the duration"),
     )
 
 
-def _off(steps: Mapping[str | None, float], interval: float) -> tuple[Path, float] | None:
-    """Where the step [s] stands that does not divide the interval, and a smaller one that does."""
+def _step_mistake(steps: Mapping[str | None, float], interval: float) -> tuple[Path, float] | None:
+    """Path of the first step [s] that does not divide the interval, and a smaller one that does."""
     for name, h in steps.items():
-        if _fits(interval, 2, (h,)) or not 0 < h < inf:
+        if _divides(interval, 2, (h,)) or not 0 < h < inf:
             continue
         least = ceil(interval / (4 * h))  # 1 of a step that is longer than that
         fitting = [interval / (4 * k) for k in range(least, 4 * least)]
@@ -150,7 +150,7 @@ def _off(steps: Mapping[str | None, float], interval: float) -> tuple[Path, floa
     return None
 
 
-def _fits(duration: float, samples: int, steps: tuple[float, ...]) -> bool:
+def _divides(duration: float, samples: int, steps: tuple[float, ...]) -> bool:
     for h in steps:
         ratio = duration / (samples - 1) / (4 * h)
         if not isfinite(ratio) or round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
@@ -202,34 +202,34 @@ def _particles(scene: Scene) -> Iterator[Finding]:
 
 
 def _chain(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """From the ground on each body hangs on one joint, whose freedoms have names."""
+    """Mistakes where bodies do not form trees from the ground, by joints with named freedoms."""
     if any(path[0] == "scene" for path in parsed.broken):
         return  # what is missing may be what joins them
-    hung = {GROUND}
-    for name, joint in _outward(scene):
+    connected = {GROUND}
+    for name, joint in _joints_from_ground(scene):
         path = ("scene", "joints", name)
         if any(not freedom.name for freedom in joint.freedoms):
             yield path, f"a {joint.kind} has no coordinates to draw; write `freedoms`"
-        if joint.a.body not in hung:
+        if joint.a.body not in connected:
             what = "begins at nothing that hangs on the ground; name the part nearer to it first"
             yield (*path, joint.word), what
-        elif joint.b.body in hung:
+        elif joint.b.body in connected:
             yield path, "closes a loop: states are drawn of open chains"
-        hung |= {joint.a.body, joint.b.body}
+        connected |= {joint.a.body, joint.b.body}
     for name in scene.bodies:
-        if name not in hung:
+        if name not in connected:
             yield ("scene", "bodies", name), "hangs on nothing: join it to the ground by `freedoms`"
 
 
-def _outward(scene: Scene) -> Iterator[tuple[str, Joint]]:
-    """The joints from the ground on; last those that begin at nothing that hangs."""
-    left, hung = dict(scene.joints), {GROUND}
-    while left:
-        ready = (name for name, joint in left.items() if joint.a.body in hung)
-        name = next(ready, None) or next(iter(left))
-        yield name, left[name]
-        hung |= {left[name].a.body, left[name].b.body}
-        del left[name]
+def _joints_from_ground(scene: Scene) -> Iterator[tuple[str, Joint]]:
+    """The joints in order from the ground; last those that are not connected to it."""
+    remaining, connected = dict(scene.joints), {GROUND}
+    while remaining:
+        ready = (name for name, joint in remaining.items() if joint.a.body in connected)
+        name = next(ready, None) or next(iter(remaining))
+        yield name, remaining[name]
+        connected |= {remaining[name].a.body, remaining[name].b.body}
+        del remaining[name]
 
 
 def _limits(file: File) -> Iterator[Finding]:

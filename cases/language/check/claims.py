@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from ...fields.kind import WORK
-from ...fields.number import Amount, NumberMistake, fitting
+from ...fields.number import Amount, NumberMistake, check_unit
 from ...mistake import Path, nearest
 from ...scene import Scene
 from ...scene.joint import WORDS
@@ -14,31 +14,31 @@ from ..parse import Finding, Parsed
 
 def claims(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     """Mistakes in `events`, `allow`, `reach` and `deviates`."""
-    seen = table(scene) if parsed.file.states is None else claimable(scene)
-    yield from _events(parsed, scene, seen)
+    known = table(scene) if parsed.file.states is None else claimable(scene)
+    yield from _events(parsed, scene, known)
     events = parsed.file.events
-    yield from _bounds(parsed, seen | event_quantities(events) | at_events(events, seen))
+    yield from _bounds(parsed, known | event_quantities(events) | at_events(events, known))
 
 
-def _events(parsed: Parsed, scene: Scene, seen: Mapping[str, Quantity]) -> Iterator[Finding]:
+def _events(parsed: Parsed, scene: Scene, known: Mapping[str, Quantity]) -> Iterator[Finding]:
     for event, rules in parsed.file.events.items():
         for name, rule in rules.items():
             path = ("events", event, name)
-            if name not in seen:
-                yield from _unknown(parsed, seen, path, name)
-            elif not _marks(scene, seen[name]):
+            if name not in known:
+                yield from _unknown(parsed, known, path, name)
+            elif not _marks_event(scene, known[name]):
                 what = "its zero marks no event; take a place, a velocity, a slip or a force"
                 yield path, what
             else:
-                yield from _fitting(path, rule.to, seen[name])
+                yield from _check_unit(path, rule.to, known[name])
 
 
-def _marks(scene: Scene, quantity: Quantity) -> bool:
+def _marks_event(scene: Scene, quantity: Quantity) -> bool:
     """Whether something happens at its zero: of an energy that is arbitrary, drift is numerical."""
     drift = quantity.field == "drift" or (quantity.field == "gap" and quantity.part in scene.joints)
     drift |= quantity.field == "slip" and quantity.part in scene.constraints
-    turned = quantity.field == "attitude"
-    return quantity.kind not in ("energy", "momentum", "acceleration") and not drift and not turned
+    turns = quantity.field == "attitude"
+    return quantity.kind not in ("energy", "momentum", "acceleration") and not drift and not turns
 
 
 def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
@@ -49,13 +49,13 @@ def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
         yield from _quantity(parsed, known, ("allow", name), name, bound)
     for i, name in enumerate(file.stays):
         if name not in file.allow:
-            yield from _allowed(parsed, known, ("stays", i), name)
+            yield from _check_allowed(parsed, known, ("stays", i), name)
         elif name in known and known[name].kind not in ("coordinate", "velocity"):
             yield ("stays", i), f"{name!r} is no place and no velocity, and may stay as it is"
     for way, reached in file.reach.items():
         for name, bound in reached.items():
             path = ("reach", way, name)
-            yield from _allowed(parsed, known, path, name, bound)
+            yield from _check_allowed(parsed, known, path, name, bound)
             allow = file.allow.get(name)
             if allow is not None and bound.value > allow.value:
                 yield path, f"{bound.value:g} is above its `allow`, {allow.value:g}"
@@ -66,7 +66,7 @@ def _bounds(parsed: Parsed, known: Mapping[str, Quantity]) -> Iterator[Finding]:
             for size in (deviation.limit, *(deviation.by or ())):
                 if size is None:
                     continue
-                yield from _allowed(parsed, known, path, name, size)
+                yield from _check_allowed(parsed, known, path, name, size)
                 if allow is not None and size.value <= allow.value:
                     yield path, f"{size.value:g} is not above its `allow`, {allow.value:g}"
 
@@ -81,17 +81,17 @@ def _quantity(
     if name not in known:
         yield from _unknown(parsed, known, path, name)
     elif bound is not None:
-        yield from _fitting(path, bound, known[name])
+        yield from _check_unit(path, bound, known[name])
 
 
-def _fitting(path: Path, given: Amount, quantity: Quantity) -> Iterator[Finding]:
+def _check_unit(path: Path, given: Amount, quantity: Quantity) -> Iterator[Finding]:
     try:
-        fitting(given, quantity.unit)
+        check_unit(given, quantity.unit)
     except NumberMistake as mistake:
         yield path, str(mistake)
 
 
-def _allowed(
+def _check_allowed(
     parsed: Parsed,
     known: Mapping[str, Quantity],
     path: Path,
@@ -100,7 +100,7 @@ def _allowed(
 ) -> Iterator[Finding]:
     if name in parsed.file.allow or ("allow", name) in parsed.broken:
         yield from _quantity(parsed, known, path, name, bound)
-    elif not _hidden(parsed, name):
+    elif not _may_exist(parsed, name):
         yield path, f"{name!r} is not in `allow`{nearest(name, parsed.file.allow)}"
 
 
@@ -108,7 +108,7 @@ def _unknown(
     parsed: Parsed, known: Mapping[str, Quantity], path: Path, name: str
 ) -> Iterator[Finding]:
     part, _, field = name.rpartition(".")
-    if _hidden(parsed, name):
+    if _may_exist(parsed, name):
         return
     if field in EVENT_FIELDS and path[0] != "events":
         events = parsed.file.events
@@ -118,7 +118,7 @@ def _unknown(
         yield path, f"'{at.event}.{at.quantity}' has no before and no after"
     elif field in ("friction", "slip") and f"{part}.fx" in known:  # a joint without it
         yield path, f"{part!r} has no `dry_friction`, so no {name!r}"
-    elif _undriven(known, part, field) or (field in WORK and part in parsed.file.scene.joints):
+    elif _needs_drive(known, part, field) or (field in WORK and part in parsed.file.scene.joints):
         yield path, f"no `drive` prescribes the rate, so no {name!r}"
     elif field in WORDS and f"{part}.gap" in known and part in parsed.file.scene.joints:
         yield path, _no_freedom(known, part, field)
@@ -127,10 +127,10 @@ def _unknown(
     elif alike := [f"{part}.{x}" for x in ALIKE.get(field, ()) if f"{part}.{x}" in known]:
         yield path, f"unknown quantity {name!r}; did you mean {alike[0]!r}?"
     elif field in FORCES and part in parsed.file.scene.bodies:
-        told = ", ".join(f"'{force}'" for force in _forces(parsed, part, known))
+        names = ", ".join(f"'{force}'" for force in _forces(parsed, part, known))
         yield (
             path,
-            f"a body has no {field}; forces belong to joints and what acts: {told or 'none'}",
+            f"a body has no {field}; forces belong to joints and what acts: {names or 'none'}",
         )
     else:
         yield path, f"unknown quantity {name!r}{nearest(name, known)}"
@@ -157,34 +157,34 @@ def _forces(parsed: Parsed, body: str, known: Mapping[str, Quantity]) -> Iterato
     scene = parsed.file.scene
     for section in (scene.joints, scene.constraints, scene.forces):
         for name, element in section.items():
-            held = any(at.body == body for at in element.named(name).refers())
-            if held and (force := f"{name}.force") in known:
+            on_body = any(at.body == body for at in element.named(name).refers())
+            if on_body and (force := f"{name}.force") in known:
                 yield force
 
 
 def _no_freedom(known: Mapping[str, Quantity], part: str, field: str) -> str:
-    """Why a joint has no such coordinate."""
-    left = [f"'{part}.{name}'" for name in WORDS if f"{part}.{name}" in known]
-    has = f"it has {' and '.join(left)}" if left else "it leaves nothing that has one"
+    """Why a joint has no coordinate of this name, in words."""
+    coordinates = [f"'{part}.{name}'" for name in WORDS if f"{part}.{name}" in known]
+    has = f"it has {' and '.join(coordinates)}" if coordinates else "it leaves nothing that has one"
     return f"{part!r} has no {field}: {has}"
 
 
-def _hidden(parsed: Parsed, name: str) -> bool:
+def _may_exist(parsed: Parsed, name: str) -> bool:
     """Whether the part or event that the quantity is of may be there, but is unsound."""
     part, field = name.split(".")[0], name.split(".")[-1]
-    found = at_event(name, parsed.file.events)
+    event = at_event(name, parsed.file.events)
     unsound = field in EVENT_FIELDS and ("events",) in parsed.broken
     undriven = any(path[:2] == ("scene", "drive") for path in parsed.broken)
     return (
         parsed.hides(part)
-        or (found is not None and parsed.hides(found.quantity.split(".")[0]))
+        or (event is not None and parsed.hides(event.quantity.split(".")[0]))
         or ("events", part) in parsed.broken
         or unsound
         or (field.endswith(("force", "torque")) and undriven)
     )
 
 
-def _undriven(known: Mapping[str, Quantity], part: str, field: str) -> bool:
+def _needs_drive(known: Mapping[str, Quantity], part: str, field: str) -> bool:
     """Whether a joint would have this quantity if its freedom were driven."""
     coordinate, _, effort = field.rpartition("_")
     coordinate = coordinate or "angle"

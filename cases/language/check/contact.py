@@ -97,17 +97,17 @@ def _other_foot(parsed: Parsed, scene: Scene, name: str) -> Iterator[Finding]:
 
 
 def _not_ideal(body: Body, ideal: str | None) -> str | None:
-    """Why the body cannot do what is assumed of it, or None."""
+    """Why the body cannot roll or pivot as the contact assumes, or None."""
     if ideal == "rolling" and body.radius is None:
-        return f"{_is(body)}; only a disk rolls"
+        return f"{_shape_words(body)}; only a disk rolls"
     if ideal == "pivot" and (body.radius is not None or not body.turns):
-        return f"{_is(body)}; only spokes and a point of a bar pivot"
+        return f"{_shape_words(body)}; only spokes and a point of a bar pivot"
     if body.tips and ideal is None:
         return f"{body.name!r} has spokes, which only pivot here: write `ideal: pivot`"
     return None
 
 
-def _is(body: Body) -> str:
+def _shape_words(body: Body) -> str:
     return f"{body.name!r} has spokes" if body.tips else f"{body.name!r} is a {body.shape}"
 
 
@@ -144,7 +144,7 @@ def _pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         for key in ("ideal", "ahead_of"):
             if getattr(written, key) is not None:
                 yield (*path, key), GROUNDS
-        unsound = [*_between(parsed, scene, (*path, "between"), pair, written.between)]
+        unsound = [*_check_pair(parsed, scene, (*path, "between"), pair, written.between)]
         yield from unsound
         both = frozenset(written.between)
         if both in first and not unsound:
@@ -153,7 +153,7 @@ def _pairs(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         first.setdefault(both, name)
 
 
-def _between(
+def _check_pair(
     parsed: Parsed, scene: Scene, path: Path, pair: Pair, words: tuple[str, str]
 ) -> Iterator[Finding]:
     """Yields what is wrong with the two bodies of a pair that touch."""
@@ -165,13 +165,13 @@ def _between(
             yield (*path, 0), f"unknown body {pair.body!r}{hint}"
     elif pair.body == pair.touched:
         yield path, f"{pair.body!r} touches itself"
-    elif what := _unable(scene.bodies[pair.body], words[0].partition(".")[2]):
+    elif what := _cannot_touch_body(scene.bodies[pair.body], words[0].partition(".")[2]):
         yield (*path, 0), what
     elif what := _untouchable(scene.bodies[pair.touched], pair):
         yield (*path, 1), what
 
 
-def _unable(body: Body, point: str) -> str | None:
+def _cannot_touch_body(body: Body, point: str) -> str | None:
     """Why this point of the body ("": none is named) cannot touch another body, or None."""
     if body.tips:
         return f"{body.name!r} has spokes, which touch planes of the ground only"

@@ -21,11 +21,11 @@ def engines(file: File, known: Engines) -> Iterator[Finding]:
     for setting in file.deviates:
         name, _, word = setting.partition(".")
         if name not in known:
-            offered = [f"{n}.{each}" for n in known for each in known[n] or (word,)]
-            yield from _one_of("setting", ("deviates", setting), offered)
-        elif (offered := known[name]) is not None:
-            settings = [f"{name}.{each}" for each in offered]
+            settings = [f"{n}.{each}" for n in known for each in known[n] or (word,)]
             yield from _one_of("setting", ("deviates", setting), settings)
+        elif (settings := known[name]) is not None:
+            names = [f"{name}.{each}" for each in settings]
+            yield from _one_of("setting", ("deviates", setting), names)
 
 
 def _one_of(kind: str, path: Path, words: Iterable[str]) -> Iterator[Finding]:

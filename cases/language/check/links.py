@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...mistake import Path, listed, nearest
+from ...mistake import Path, list_hint, nearest
 from ...scene import FLOOR, GROUND, Edge, Force, Joint, Scene
 from ...scene.body import Body
 from ...scene.point import Anchor
@@ -32,35 +32,35 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "incline"), f"cannot stand beside {own}"
     if not spec.bodies and not parsed.lacks("scene"):
         yield ("scene", "bodies"), "should not be empty"
-    for path, before in twice(parsed):
+    for path, before in duplicate_names(parsed):
         yield path, f"{path[-1]!r} already names one of the {before}"
     yield from _points(parsed)
     for name, joint in scene.joints.items():
-        yield from _refers(parsed, scene, ("scene", "joints", name, joint.word), joint)
+        yield from _check_points(parsed, scene, ("scene", "joints", name, joint.word), joint)
     for name, edge in scene.constraints.items():
         path = ("scene", "constraints", name, edge.word)
-        yield from _refers(parsed, scene, path, edge)
+        yield from _check_points(parsed, scene, path, edge)
         if what := edge.unfit(scene.bodies.get(edge.at.body)):
             yield path, what
     for name, force in scene.forces.items():
         path = ("scene", "forces", name, force.word)
-        yield from _refers(parsed, scene, path, force)
+        yield from _check_points(parsed, scene, path, force)
         if what := force.unfit(scene.bodies):
             yield path, what
         if force.about is not None:
-            yield from about(parsed, scene, path, force)
+            yield from check_joint(parsed, scene, path, force)
     if scene.frame.dimension == 3:
         yield from turns_freely(parsed, scene)
     else:
-        yield from rubbing(scene)
-        yield from _views(parsed.file.scene, scene)
+        yield from check_dry_pins(scene)
+        yield from _check_seen_from(parsed.file.scene, scene)
     yield from contacts(parsed, scene)
     yield from starts(parsed, scene)
     yield from drives(parsed, scene)
 
 
-def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
-    """Seen from above there is a slope, and no floor that could be stood on."""
+def _check_seen_from(spec: Spec, scene: Scene) -> Iterator[Finding]:
+    """Mistakes of `seen: from above`, which needs a slope and has no floor."""
     if spec.seen is None:
         return
     if spec.incline is None:
@@ -69,8 +69,8 @@ def _views(spec: Spec, scene: Scene) -> Iterator[Finding]:
         yield ("scene", "seen"), "has no floor for contacts: the floor is a line seen from the side"
 
 
-def twice(parsed: Parsed) -> Iterator[tuple[Path, str]]:
-    """Names given twice: where the name stands again, and the section before."""
+def duplicate_names(parsed: Parsed) -> Iterator[tuple[Path, str]]:
+    """Yields duplicate names: the path of the second, and the section of the first."""
     spec = parsed.file.scene
     places: list[Path] = [("scene", s, name) for s in NAMED for name in getattr(spec, s)]
     places += [("events", name) for name in parsed.file.events]  # `rolls.time` is a quantity
@@ -83,19 +83,19 @@ def twice(parsed: Parsed) -> Iterator[tuple[Path, str]]:
 
 
 def _points(parsed: Parsed) -> Iterator[Finding]:
-    taken = _TAKEN if parsed.file.scene.space is None else _TAKEN_IN_SPACE
+    names = _TAKEN if parsed.file.scene.space is None else _TAKEN_IN_SPACE
     if FLOOR in parsed.file.scene.points:
         yield ("scene", "points", FLOOR), f"the name {FLOOR!r} is taken"
     for name, body in parsed.file.scene.bodies.items():
         for point in getattr(body, "points", {}):
-            if point in (*body.own_points, *taken):
+            if point in (*body.own_points, *names):
                 yield ("scene", "bodies", name, "points", point), f"the name {point!r} is taken"
 
 
-def _refers(
+def _check_points(
     parsed: Parsed, scene: Scene, path: Path, element: Joint | Edge | Force
 ) -> Iterator[Finding]:
-    """The points it refers to, one under its word or a list of two."""
+    """Mistakes in the points to which an element refers, one or a list of two."""
     points = element.refers()
     for i, at in enumerate(points):
         yield from no_point(parsed, scene, (*path, i) if len(points) > 1 else path, at)
@@ -107,7 +107,7 @@ def _refers(
 # Checks of what acts about or along a joint, or rubs in it: its parts may turn, or may shift.
 
 
-def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
+def check_joint(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Finding]:
     """Yields what is wrong with the joint's name, the joint, or the turn that is meant."""
     name = force.about
     assert name is not None
@@ -133,18 +133,18 @@ def about(parsed: Parsed, scene: Scene, path: Path, force: Force) -> Iterator[Fi
         return
     if force.turn:
         yield path, f"in the plane {name!r} has one turn without a name: write {name!r}"
-    yield from turning(scene, path, joint)
+    yield from unturnable_parts(scene, path, joint)
 
 
-def rubbing(scene: Scene) -> Iterator[Finding]:
-    """Dry friction of a pin brakes a turn."""
+def check_dry_pins(scene: Scene) -> Iterator[Finding]:
+    """Mistakes of dry friction in pins of which a part cannot turn."""
     for name, joint in scene.joints.items():
         if joint.dry_friction is not None and not joint.shifts:
-            yield from turning(scene, ("scene", "joints", name, "dry_friction"), joint)
+            yield from unturnable_parts(scene, ("scene", "joints", name, "dry_friction"), joint)
 
 
-def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
-    """Parts of the joint that cannot turn."""
+def unturnable_parts(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
+    """Yields the parts of the joint that cannot turn, as mistakes."""
     for at in joint.refers():
         if at.body in scene.bodies and not scene.bodies[at.body].turns:
             yield path, f"{joint.name!r} joins {at.body!r}, which is a particle and cannot turn"
@@ -154,7 +154,7 @@ def turning(scene: Scene, path: Path, joint: Joint) -> Iterator[Finding]:
 
 
 def no_turn(joint: Any, force: Force) -> str | None:
-    """Why there is no such turn, or none about which anything can act."""
+    """Why a force cannot act about the turn that it names, in words, or None."""
     found: Joint = joint
     name, freedom = found.name, force.turn
     turns = [f.name for f in found.turns if f.name]
@@ -170,7 +170,7 @@ def no_turn(joint: Any, force: Force) -> str | None:
         turn = f"{name}.{found.rates[freedom].name}"
         return f"{freedom!r} is a rate; the turn is {turn!r}"
     if freedom in [f.name for f in found.shifts]:
-        return f"{freedom!r} slides, and nothing turns there{listed(written)}"
+        return f"{freedom!r} slides, and nothing turns there{list_hint(written)}"
     if freedom and freedom not in turns:
         return f"{name!r} has no turn {freedom!r}{nearest(f'{name}.{freedom}', written)}"
     return None

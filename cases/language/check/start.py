@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Mapping
 
-from ...fields.number import Amount, NumberMistake, fitting, shown
-from ...mistake import Path, listed, nearest
+from ...fields.number import Amount, NumberMistake, check_unit, shown
+from ...mistake import Path, list_hint, nearest
 from ...scene import GROUND, Anchor, Scene
 from ...scene.body import Body
 from ...scene.joint import WORDS, Joint
@@ -19,18 +19,18 @@ def starts(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
         if scene.frame.dimension == 3:
             yield from _in_space(parsed, scene, key)
         else:
-            yield from _placed(parsed, scene, key, getattr(parsed.file, key))
+            yield from _check_places(parsed, scene, key, getattr(parsed.file, key))
     if scene.frame.dimension == 2:
         yield from _speeds(parsed, scene)
         yield from _polar(parsed, scene)
 
 
-def _nobody(parsed: Parsed, scene: Scene, name: str) -> str:
+def _unknown_part(parsed: Parsed, scene: Scene, name: str) -> str:
     known = [*parsed.names("bodies", scene.bodies), *parsed.names("joints", scene.joints)]
     return f"unknown body or joint {name!r}{nearest(name, known)}"
 
 
-def _placed(
+def _check_places(
     parsed: Parsed, scene: Scene, key: str, places: Mapping[str, Near]
 ) -> Iterator[Finding]:
     for name, place in places.items():
@@ -41,7 +41,7 @@ def _placed(
             continue
         if name not in scene.bodies:
             if not parsed.hides(name):
-                yield (key, name), _nobody(parsed, scene, name)
+                yield (key, name), _unknown_part(parsed, scene, name)
             continue
         if place.shift is not None:
             yield (key, name, "shift"), "only a joint that slides has a `shift`"
@@ -108,7 +108,7 @@ def _origin(parsed: Parsed, scene: Scene, name: str, start: Initial) -> Iterator
 
 
 def _of_planar_joint(path: Path, scene: Scene, place: Near) -> Iterator[Finding]:
-    """Every mistake in what is said of a joint."""
+    """Every mistake in the start of a joint."""
     key, name = path
     joint, starts = scene.joints[str(name)], key == "initial"
     known = [word for word in scene.coordinates()[joint.name] if starts or word not in joint.rates]
@@ -196,7 +196,7 @@ def _no_key(key: str, known: list[str], kind: str = "") -> str:
     if kind and not known:
         return f"unknown key {key!r}; of this {kind} nothing more can be given"
     close = nearest(key, known)
-    return f"unknown key {key!r}{close if 'did you mean' in close else listed(known)}"
+    return f"unknown key {key!r}{close if 'did you mean' in close else list_hint(known)}"
 
 
 def _number(path: Path, entry: Amount | Vector, unit: str) -> Iterator[Finding]:
@@ -216,6 +216,6 @@ def _vector(path: Path, entry: Amount | Vector, unit: str) -> Iterator[Finding]:
 
 def _fits(path: Path, amount: Amount, unit: str) -> Iterator[Finding]:
     try:
-        fitting(amount, unit)
+        check_unit(amount, unit)
     except NumberMistake as mistake:
         yield path, str(mistake)

@@ -23,21 +23,21 @@ def too_many_variants(data: Mapping[str, Any]) -> str | None:
     """The mistake of too many variants in a file's data, in words; None if they are few enough."""
     given = data.get("variants")
     count = len(given) if isinstance(given, Mapping) else 0
-    return _above(count, VARIANTS, f"{count} variants")
+    return _exceeds(count, VARIANTS, f"{count} variants")
 
 
 def work(file: File, scene: Scene) -> Iterator[Finding]:
     """Yields what is above its limit: parts of the scene, rows of its samples or states."""
     parts, bodies = len([*scene.elements()]), len(scene.bodies)
-    if what := _above(parts, PARTS, f"{parts} bodies, joints, constraints, contacts and forces"):
+    if what := _exceeds(parts, PARTS, f"{parts} bodies, joints, constraints, contacts and forces"):
         yield ("scene",), what
         return
     count = file.samples if file.states is None else file.states.random
     name = "samples" if file.states is None else "states"
     of = f"{count} {name} of {bodies} {'body' if bodies == 1 else 'bodies'}"
-    if what := _above(count * bodies, ROWS, f"{of} are {count * bodies} rows"):
+    if what := _exceeds(count * bodies, ROWS, f"{of} are {count * bodies} rows"):
         yield ("samples",) if file.states is None else ("states", "random"), what
 
 
-def _above(number: float, limit: float, what: str) -> str | None:
+def _exceeds(number: float, limit: float, what: str) -> str | None:
     return f"{what}, and the limit is {limit:g}: {GO_ON}" if number > limit else None

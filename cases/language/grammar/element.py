@@ -27,8 +27,8 @@ class Element(Part):
 
     def named(self, name: str) -> Any:
         """The element itself."""
-        asked = signature(type(self).makes).parameters
-        numbers = {key: getattr(self, key) for key in asked if hasattr(self, key)}
+        parameters = signature(type(self).makes).parameters
+        numbers = {key: getattr(self, key) for key in parameters if hasattr(self, key)}
         return type(self).makes(**numbers | self.referred() | {"name": name})
 
     def referred(self) -> dict[str, Any]:
@@ -61,17 +61,17 @@ def element(
     It has no keys `without`, and no default for what it `needs`. axes: along how many its law in
     time acts, if not as in the plane. typed: what a key is, where only the word tells.
     """
-    asked, title = keys(makes), f"{word.capitalize()}{axes or ''}"
-    asked |= {key: (kind, asked[key][1]) for key, kind in (typed or {}).items()}
-    asked |= {key: (asked[key][0], ...) for key in needs}
-    refers = Pair if "b" in asked else Point if "at" in asked else Name
-    refers = tuple[Name, Name] if "second" in asked else refers
-    refers = asked["joint"][0] if "joint" in asked else refers
-    left = {key: asked[key] for key in asked if key not in (*REFERS, "name", *without)}
-    if "signal" in left:
-        base, left = InTime, left | signal_fields(title, left.pop("signal")[0], axes)
-    fields: dict[str, Any] = {word: (refers, ...), **left}
-    model = create_model(title, __base__=base, __doc__=_said(makes), **fields)
+    parameters, title = keys(makes), f"{word.capitalize()}{axes or ''}"
+    parameters |= {key: (kind, parameters[key][1]) for key, kind in (typed or {}).items()}
+    parameters |= {key: (parameters[key][0], ...) for key in needs}
+    refers = Pair if "b" in parameters else Point if "at" in parameters else Name
+    refers = tuple[Name, Name] if "second" in parameters else refers
+    refers = parameters["joint"][0] if "joint" in parameters else refers
+    fields = {key: parameters[key] for key in parameters if key not in (*REFERS, "name", *without)}
+    if "signal" in fields:
+        base, fields = InTime, fields | signal_fields(title, fields.pop("signal")[0], axes)
+    model_fields: dict[str, Any] = {word: (refers, ...), **fields}
+    model = create_model(title, __base__=base, __doc__=_summary(makes), **model_fields)
     model.word, model.makes = word, makes
     return model
 
@@ -82,10 +82,10 @@ def numbers(
     """The model of a map with all that `makes` asks for, but for `without`."""
     fields: dict[str, Any] = {k: field for k, field in keys(makes).items() if k not in without}
     name = prefix + makes.__name__.capitalize()
-    return create_model(name, __base__=Part, __doc__=_said(makes), **fields)
+    return create_model(name, __base__=Part, __doc__=_summary(makes), **fields)
 
 
-def _said(makes: Callable[..., Any]) -> str:
+def _summary(makes: Callable[..., Any]) -> str:
     return (makes.__doc__ or "").partition("\n")[0]
 
 
@@ -93,6 +93,6 @@ def keys(makes: Callable[..., Any]) -> dict[str, Any]:
     """Fields of a model for all that `makes` asks for: type and default by name."""
     hints = get_type_hints(makes, include_extras=True)
     return {
-        key: (hints[key], ... if asked.default is Parameter.empty else asked.default)
-        for key, asked in signature(makes).parameters.items()
+        key: (hints[key], ... if parameter.default is Parameter.empty else parameter.default)
+        for key, parameter in signature(makes).parameters.items()
     }

@@ -23,17 +23,17 @@ from .start import Initial, Near, SpatialStart
 MOST = 10_000  # states of a file: a minute of its reference
 
 
-def _ordered(span: Span) -> Span:
+def _check_order(span: Span) -> Span:
     if span[0] > span[1]:
         raise wrong(f"should be a list [low, high], is [{span[0]:g}, {span[1]:g}]")
     return span
 
 
 _Number = Annotated[float, In("1")]
-_Span = Annotated[tuple[_Number, _Number], AfterValidator(_ordered)]
+_Span = Annotated[tuple[_Number, _Number], AfterValidator(_check_order)]
 
 
-def _few(count: int) -> int:
+def _at_most(count: int) -> int:
     if count > MOST:
         raise wrong(f"must be at most {MOST}, is {count}")
     return count
@@ -42,7 +42,7 @@ def _few(count: int) -> int:
 class Drawn(Part):
     """So many unrelated states, with every coordinate drawn evenly from a span, in SI."""
 
-    random: Annotated[int, AfterValidator(_few)] = Field(ge=3, description="how many")
+    random: Annotated[int, AfterValidator(_at_most)] = Field(ge=3, description="how many")
     seed: int = Field(ge=0, description="of the random numbers: another one draws other states")
     q: _Span = Field(description="from which the places are drawn, [low, high] in m and rad")
     q_dot: _Span = Field(description="from which the rates are drawn")
@@ -115,7 +115,7 @@ def _word(text: str, known: Names) -> Rule:
     return word
 
 
-def _one(value: object) -> object:
+def _check_single(value: object) -> object:
     if isinstance(value, dict) and len(value) == 1:
         return value
     has = f"has {len(value)}" if isinstance(value, dict) else f"is {shown(value)}"
@@ -124,7 +124,7 @@ def _one(value: object) -> object:
 
 Event = Annotated[
     dict[Quantity, Annotated[Crossing, RuleWords()]],
-    BeforeValidator(_one),
+    BeforeValidator(_check_single),
     Field(json_schema_extra={"minProperties": 1, "maxProperties": 1}),
 ]
 

@@ -56,13 +56,13 @@ def _joint(kind: str) -> type[Element]:
         for which in ("turn", "shift", "swing")
     )
     brakes = shifts != turns and not swings
-    asked = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
-    asked["length"] = swings
+    accepted = {"kind": False, "along": shifts, "angle": not turns, "dry_friction": brakes}
+    accepted["length"] = swings
     return element(
         kind,
         planar_joint,
         base=_Joint if brakes else _NeverBrakes,
-        without=[key for key, plays in asked.items() if not plays],
+        without=[key for key, plays in accepted.items() if not plays],
         needs=["along"] if shifts else [],
         typed={"dry_friction": (OF_SLIDE if shifts else OF_PIN) | None},
     )
@@ -105,8 +105,8 @@ def parallel(a: Vector3, b: Vector3) -> bool:
 
 
 def _freedoms(written: dict[str, Left]) -> tuple[Freedom, ...]:
-    """In the order of the file; a mistake where they are no coordinates."""
-    freedoms = tuple(left.named(name) for name, left in written.items())
+    """The freedoms in the file's order; a mistake where they are not independent."""
+    freedoms = tuple(freedom.named(name) for name, freedom in written.items())
     shifts = [f for f in freedoms if f.kind == "shift"]
     turns = [f for f in freedoms if f.kind == "turn"]
     for f, g in pairwise(freedoms):
@@ -134,7 +134,7 @@ def _spanned(axis: Vector3, others: list[Vector3]) -> bool:
 
 
 def _no_name_twice(freedoms: tuple[Freedom, ...]) -> None:
-    """Coordinates, rates and what drives exert are quantities, as the joint's reactions are."""
+    """Raises a mistake where a freedom, its rate or its effort takes a name that is taken."""
     taken = dict.fromkeys(HELD, "")
     for f in freedoms:
         for name in (f.name, f.rate, f.effort):

@@ -45,7 +45,7 @@ class Start(Part):
     random_rates: Rates | None = None
 
 
-def _nowhere() -> Start:
+def _default_start() -> Start:
     return Start(joints={}, rates={})
 
 
@@ -116,7 +116,7 @@ Controls = Annotated[
 Bar = Annotated[Amount, Bound()]
 
 
-def _either(schema: dict[str, Any]) -> None:
+def _any_of(schema: dict[str, Any]) -> None:
     """Alters the schema of controls: a map with a `table` may name a file or an actuator."""
     schema["anyOf"] = schema.pop("oneOf")
 
@@ -142,8 +142,8 @@ class ModelFile(Part):
 
     model: Annotated[str, Text(description="the MJCF or URDF, beside this file")]
     title: Annotated[str, Text()] = ""
-    initial: Start = Field(default_factory=_nowhere)
-    control: Controls = Field({}, json_schema_extra=_either)
+    initial: Start = Field(default_factory=_default_start)
+    control: Controls = Field({}, json_schema_extra=_any_of)
     contacts: Annotated[str, Word("word", ("on", "off"))] = "on"
     duration: Annotated[float, In("s", above=0)] = DURATION
     samples: int = Field(SAMPLES, ge=3, description="number of times at which anything is compared")

@@ -40,9 +40,9 @@ class Shaped(Part):
     @property
     def own_points(self) -> tuple[str, ...]:
         """The points that the shape has by itself."""
-        named: dict[str, Any] = {"points": {}} if "points" in keys_of(type(self).makes) else {}
-        made = type(self).makes(name="", **named, **dict(getattr(self, self.word)))
-        return tuple(made.points)
+        points: dict[str, Any] = {"points": {}} if "points" in keys_of(type(self).makes) else {}
+        body = type(self).makes(name="", **points, **dict(getattr(self, self.word)))
+        return tuple(body.points)
 
 
 _POINTS = "points of the body, in its axes from its centre of mass"

@@ -29,8 +29,8 @@ class _Plain(GenerateJsonSchema):
 
     def dict_schema(self, schema: core_schema.DictSchema) -> dict[str, Any]:
         """Names that do not fit the pattern are mistakes."""
-        made = super().dict_schema(schema)
-        return made | {"additionalProperties": False} if "patternProperties" in made else made
+        result = super().dict_schema(schema)
+        return result | {"additionalProperties": False} if "patternProperties" in result else result
 
 
 _OF_STATES = {"required": ["states"]}
@@ -45,20 +45,20 @@ def text() -> str:
     `space: 3`, and what has to on whether it claims states.
     """
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "textmech case"}
-    made, definitions = models_json_schema(
+    schemas, definitions = models_json_schema(
         [(file, "validation") for file in FILES], schema_generator=_Plain
     )
     known = _without_titles(definitions["$defs"])
-    plane, space, model = (known.pop(_name(made[file, "validation"])) for file in FILES)
-    apart = [key for key, value in plane["properties"].items() if value != space["properties"][key]]
-    both = {key: {} if key in apart else value for key, value in plane["properties"].items()}
+    plane, space, model = (known.pop(_name(schemas[file, "validation"])) for file in FILES)
+    vary = [key for key, value in plane["properties"].items() if value != space["properties"][key]]
+    both = {key: {} if key in vary else value for key, value in plane["properties"].items()}
     of_plane, of_space = (
-        {"properties": {key: one["properties"][key] for key in apart}} for one in (plane, space)
+        {"properties": {key: kind["properties"][key] for key in vary}} for kind in (plane, space)
     )
     choice = {"if": _IN_SPACE, "then": of_space, "else": of_plane}
-    needed = [key for key in plane["required"] if key not in _MOVES]
+    required = [key for key in plane["required"] if key not in _MOVES]
     moves = {"anyOf": [_OF_STATES, {"required": [*_MOVES]}]}
-    scene = {**plane, "properties": both, "required": needed, **choice, **moves}
+    scene = {**plane, "properties": both, "required": required, **choice, **moves}
     schema = {"$defs": known, "if": {"required": ["model"]}, "then": model, "else": scene}
     return json.dumps(head | schema, indent=1, ensure_ascii=False) + "\n"
 

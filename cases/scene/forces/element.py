@@ -110,7 +110,7 @@ class Limit(Force):
 
     def reactions(self) -> Iterator[str]:
         """Yields what it exerts at each end, by quantity."""
-        return (f"{self.name}.{side}" for told in self.given.values() for side in told)
+        return (f"{self.name}.{side}" for fields in self.given.values() for side in fields)
 
     def gaps(self, motion: Motion) -> Iterator[Array]:
         """Yields for each side how far (N,) it is from its end, below zero where it is passed."""

@@ -217,6 +217,6 @@ FORCES: dict[str, type[Force]] = {kind.word: kind for kind in NOUNS}
 Kind = TypeVar("Kind", bound=Force)
 
 
-def of(kind: type[Kind], forces: Iterable[Force]) -> Iterator[Kind]:
+def of_kind(kind: type[Kind], forces: Iterable[Force]) -> Iterator[Kind]:
     """Yields the forces of a kind, in their order."""
     return (force for force in forces if isinstance(force, kind))

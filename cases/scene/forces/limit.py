@@ -44,8 +44,8 @@ class Rope(Limit):
 
     def quantities(self) -> dict[str, Fields]:
         """length and gap [m], how far its ends are apart and how much is slack; its force [N]."""
-        apart: Fields = {"length": ("m", "coordinate"), "gap": ("m", "residual")}
-        return {self.name: {**apart, "force": ("N", "force")}}
+        fields: Fields = {"length": ("m", "coordinate"), "gap": ("m", "residual")}
+        return {self.name: {**fields, "force": ("N", "force")}}
 
     def observe(self, motion: Motion, field: str) -> Array:
         """(N,) length or gap [m]; KeyError of its force, which only a producer knows."""
@@ -93,8 +93,8 @@ class Stops(Limit, Turning):
     @property
     def sides(self) -> dict[str, tuple[float, float]]:
         """For each stop that there is: the sense in which it pushes and the angle where it is."""
-        found = {"low": (1.0, self.low), "high": (-1.0, self.high)}
-        return {side: (sense, at) for side, (sense, at) in found.items() if at is not None}
+        stops = {"low": (1.0, self.low), "high": (-1.0, self.high)}
+        return {side: (sense, at) for side, (sense, at) in stops.items() if at is not None}
 
     @property
     def back(self) -> float:

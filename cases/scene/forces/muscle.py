@@ -48,11 +48,11 @@ class Contracting(Force):
         if field == "length":
             return length
         u = motion.reaction(f"{self.name}.{self.inner}")
-        series, beside = self.series_stiffness, self.parallel_stiffness
+        series, parallel = self.series_stiffness, self.parallel_stiffness
         return (
             u
             if field == self.inner
-            else series * (length - u) + beside * (length - self.rest_length)
+            else series * (length - u) + parallel * (length - self.rest_length)
         )
 
     def power(self, motion: Motion) -> Array:

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from ....cases.scene import Scene
-from ....cases.scene.forces.force import Rope, of
+from ....cases.scene.forces.force import Rope, of_kind
 from ....cases.trajectory import Array
 
 NEAR = 1e-9  # of a rope's length: so near its end it is taut
@@ -58,7 +58,7 @@ class Tendons:
 
 def ropes_of(scene: Scene) -> Iterator[Rope]:
     """The scene's ropes."""
-    return of(Rope, scene.forces.values())
+    return of_kind(Rope, scene.forces.values())
 
 
 def draw(scene: Scene, model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, float]:

@@ -1,7 +1,7 @@
 """Linear drag of a body as MuJoCo's damping of the slides by which its centre moves."""
 
 from ....cases.scene import CENTER, GROUND, Drag, Scene, Viscous
-from ....cases.scene.forces.force import of
+from ....cases.scene.forces.force import of_kind
 from .tree import natives, spanning_tree
 
 NO_DRAG = "engine: MuJoCo has no drag at a point of a body"
@@ -19,12 +19,12 @@ def not_damping(scene: Scene, force: Drag) -> str | None:
     slides = _slides(scene, force.at.body)
     if not slides:
         return f"{NO_DRAG}, but a damping of joints, and {force.at.body} moves by no slides alone"
-    for other in of(Drag, scene.forces.values()):
+    for other in of_kind(Drag, scene.forces.values()):
         if other is force:
             break
         if other.at == force.at:  # which has that damping, or none has
             return f"engine: MuJoCo damps a slide once, and {force.name} is beside {other.name}"
-    for other in of(Viscous, scene.forces.values()):
+    for other in of_kind(Viscous, scene.forces.values()):
         if other.joint in slides:
             return f"engine: MuJoCo damps a slide once, and {force.name} is beside {other.name}"
     driven = next((name for name in slides if f"{name}.speed" in scene.drives), None)

@@ -30,7 +30,7 @@ from ....cases.scene.forces.force import (
     Stops,
     Torque,
     Viscous,
-    of,
+    of_kind,
 )
 from ....cases.scene.forces.muscle import Contracting
 from ....cases.scene.forces.turning import Motor, Torsion, TorsionDamper
@@ -302,7 +302,7 @@ def _held(scene: Scene, model: mujoco.MjModel, force: Force) -> dict[str, float]
 def _about(scene: Scene, force: Force, root: ET.Element | None = None) -> Iterator[Hinge]:
     if force.about is not None:
         yield hinge(scene, force, root)
-    for drag in of(Drag, (force,)):
+    for drag in of_kind(Drag, (force,)):
         built = {} if root is None else {joint.get("name"): joint for joint in root.iter("joint")}
         yield from (Hinge(name, built.get(name)) for name in damped_slides(scene, drag))
 

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ....cases.scene import GROUND, Anchor, Scene
-from ....cases.scene.chain import across
+from ....cases.scene.chain import orthogonal_complement
 from ....cases.scene.frame import PLANE, SPACE
 from ....cases.scene.joint import Joint
 from ....cases.scene.rotation import Vector3
@@ -76,7 +76,7 @@ def connect_points(scene: Scene, joint: Any) -> list[Vector3]:
     count = held_points(scene, joint)
     assert count is not None
     turns = [turn.axis for turn in joint.turns] if count == 2 else []
-    ways = [*turns, *(u.tolist() for u in across(turns))]
+    ways = [*turns, *(u.tolist() for u in orthogonal_complement(turns))]
     reach = max(_reach(scene, joint.a), _reach(scene, joint.b)) or 1.0
     offsets = [(0.0, 0.0, 0.0)]
     for x, y, z in ways[: count - 1]:

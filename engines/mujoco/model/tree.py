@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector, once
+from ....cases.scene import GROUND, Anchor, Force, Joint, Scene, Vector, cached_by_scene
 from ....cases.scene.frame import PLANE
 from ....cases.scene.joint import Freedom
 from ....cases.scene.rotation import Vector3
@@ -196,7 +196,7 @@ def local(scene: Scene, anchor: Anchor) -> Vector3:
     return (0.0, 0.0, 0.0) if point.driven else lifted(point.at)
 
 
-@once
+@cached_by_scene
 def spanning_tree(scene: Scene) -> Tree:
     """The tree over the joints: what closes a loop best comes last, else in the scene's order.
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ....cases.scene import CENTER, GROUND, Anchor, Body, Couple, Drag, Scene, Torque, Viscous
-from ....cases.scene.forces.force import of
+from ....cases.scene.forces.force import of_kind
 from ...engine import Start
 
 ALIKE = 1e-12  # of a rate d/m: what rounding of its numbers leaves
@@ -32,8 +32,8 @@ class Slowing:
 
 def slowing(scene: Scene) -> list[Slowing]:
     """The forces that slow by a power of the speed."""
-    drags = (_drag(force) for force in of(Drag, scene.forces.values()))
-    return [*drags, *(_viscous(scene, force) for force in of(Viscous, scene.forces.values()))]
+    drags = (_drag(force) for force in of_kind(Drag, scene.forces.values()))
+    return [*drags, *(_viscous(scene, force) for force in of_kind(Viscous, scene.forces.values()))]
 
 
 SLOWS = "pymunk's space.damping slows"
@@ -116,7 +116,7 @@ def _stays_unturned(scene: Scene, body: Body, start: Start) -> bool:
     joints = [joint for joint in scene.joints.values() if body.name in _bodies(joint.refers())]
     if not body.turns or any(not j.turns and GROUND in _bodies(j.refers()) for j in joints):
         return True
-    twists = [*of(Torque, scene.forces.values()), *of(Couple, scene.forces.values())]
+    twists = [*of_kind(Torque, scene.forces.values()), *of_kind(Couple, scene.forces.values())]
     touching = (*twists, *scene.contacts.values(), *scene.pairs.values())
     touching = (*joints, *touching, *scene.constraints.values())
     beside = any(

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ....cases.scene import GROUND, Contact, Edge, Joint, Scene, Signal, Vector
-from ....cases.scene.chain import across as completing
+from ....cases.scene.chain import orthogonal_complement as completing
 from ....cases.scene.joint import Freedom
 from ...coverage import equation
 from ..kinematics.frame import PLANE

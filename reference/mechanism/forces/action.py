@@ -27,7 +27,7 @@ from ....cases.scene.forces.force import (
     Torque,
     Torsion,
     TorsionDamper,
-    of,
+    of_kind,
 )
 from ...coverage import Numbered, equation
 from ...laws.force import hill, linear, torsion, torsion_damper
@@ -547,7 +547,7 @@ def blurred(scene: Scene, speed: float) -> float:
     v^{1−α} = (1 − α) (d/m) (t_s − t), with the mass of all bodies.
     """
     m = sum(body.mass for body in scene.bodies.values())
-    stops = [f for f in of(Viscous, scene.forces.values()) if f.exponent < 1.0]
+    stops = [f for f in of_kind(Viscous, scene.forces.values()) if f.exponent < 1.0]
     times = [
         (NOISE * speed) ** (1.0 - f.exponent) * m / (d * (1.0 - f.exponent))
         for f in stops

@@ -5,7 +5,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ....cases.scene.chain import across
+from ....cases.scene.chain import orthogonal_complement
 from ....cases.scene.forces.turning import Turning
 from ..kinematics.frame import PLANE, Vec
 from ..kinematics.kinematics import Direction, Kinematics, Part
@@ -148,7 +148,7 @@ def turn_of(k: Kinematics, force: Turning) -> Turn:
     if len(axes) > 2:
         raise ValueError(f"{force.name}: about none of three turns can anything act")
     n = axes[number]
-    w = axes[1 - number] if len(axes) == 2 else across([joint.turns[0].axis])[0]
+    w = axes[1 - number] if len(axes) == 2 else orthogonal_complement([joint.turns[0].axis])[0]
     c = float(n @ w)
     flat, own = w - c * n, 1 / (1 - c * c)
     holds, other = (a, b) if number == 0 else (b, a)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....cases.scene import Scene
 from ....cases.scene.forces.drag import Drag
-from ....cases.scene.forces.force import of
+from ....cases.scene.forces.force import of_kind
 from ...system import MOVING, TOGETHER, Array, Guard, System
 from ..constraints.constraint import Constraint, tracked
 from ..constraints.leeway import Leeway
@@ -309,7 +309,7 @@ OTHERS = 2.0  # times what the friction does: then it goes through rest, and doe
 
 def halting(modes: Modes, mode: str, size: float) -> Iterator[Guard]:
     """Yields guards where drags stop their points: a message, as no law sets such a point off."""
-    for force in of(Drag, modes.scene.forces.values()):
+    for force in of_kind(Drag, modes.scene.forces.values()):
         if force.exponent < 1.0 and force.coefficient:
             slow, point = SLOW * _speed(modes, size), tracked(force.at, modes.base.where)
             yield Guard(

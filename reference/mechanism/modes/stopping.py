@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from ....cases.scene import Scene
 from ....cases.scene.forces.drag import Viscous
-from ....cases.scene.forces.force import of
+from ....cases.scene.forces.force import of_kind
 from ..constraints.constraint import Constraint
 from ..constraints.contact import at_rest
 from ..kinematics.kinematics import Layout
@@ -62,7 +62,7 @@ class Stopping(Element):
 
 def stopping(scene: Scene, where: Layout, speed: float) -> Iterator[Stopping]:
     """The slides without dry friction; speed [m/s] at the start, of anything."""
-    oils = list(of(Viscous, scene.forces.values()))
+    oils = list(of_kind(Viscous, scene.forces.values()))
     lengths = [abs(x) for b in scene.bodies.values() for p in b.points.values() for x in p]
     turning = speed * speed / (max(lengths, default=0.0) or 1.0)
     force = math.hypot(*scene.gravity) + turning

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ....cases.case import Case
-from ....cases.scene.unnamed import through
+from ....cases.scene.unnamed import penetrations
 from ....cases.trajectory import Trajectory
 
 ON = 1e-3  # of two samples: closer to an impact no step of an engine parts them
@@ -15,7 +15,7 @@ def unintended(case: Case, trajectory: Trajectory) -> Iterator[str]:
     """Yields a sentence for each thing that goes through another, and for samples on impacts."""
     if case.states is not None:
         return
-    yield from through(case.scene, trajectory)
+    yield from penetrations(case.scene, trajectory)
     gaps = np.abs(case.times[:, None] - trajectory.blows[None, :])
     met = case.times[np.min(gaps, axis=1, initial=np.inf) <= ON * case.interval].tolist()
     if met:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ....cases.case import Case
 from ....cases.scene.observe import motion_of, observe
-from ....cases.scene.quantity import at_event, told_by
+from ....cases.scene.quantity import at_event, needed_by_events
 from ....cases.trajectory import Array, Trajectory
 from ....engines.engine import Claims, Diverged, Engine, Plan, Start
 from ..events.states import engine_states
@@ -75,7 +75,7 @@ def _run(rung: Rung) -> Samples:
     # An engine starts at 0, whenever that is.
     acting = scene.later(late) if late else scene
     case = replace(case, late=0.0) if late else case
-    wanted = dict.fromkeys((*rung.bounds, *told_by(case.events, case.allow)))
+    wanted = dict.fromkeys((*rung.bounds, *needed_by_events(case.events, case.allow)))
     run = partial(
         rung.engine.run,
         reactions=wanted_reactions(scene, wanted),

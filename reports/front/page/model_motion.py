@@ -49,7 +49,7 @@ def _motion(ready: Opened, steps: Steps) -> Motion:
     for each in steps.settings:
         if each.y is not None:
             ghosts[_way(each)] = _ghost(own, drawing, limit.times, each.setting, each.y, right)
-    finer, y = own_drawing.between(own, limit.times, limit.y, math.ceil(FINE / len(limit.times)))
+    finer, y = own_drawing.refined(own, limit.times, limit.y, math.ceil(FINE / len(limit.times)))
     closely = drawing.poses(finer, poses.moves(own_drawing.states(own, y)), poses.CLOSE)
     return drawing.motion(LIMIT, closely.rounded(), ghosts, _curves(ready, steps))
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from ....cases.case import Case
-from ....cases.scene.difference import apart
+from ....cases.scene.difference import deviation
 from ....cases.scene.observe import observe
 from ....cases.scene.states import MASS_MATRIX
 from ....cases.trajectory import Array, Trajectory
@@ -114,7 +114,7 @@ def _of_states(case: Case, times: Array, states: Mapping[str, Array], name: str)
 
 
 def _seen(samples: Array) -> Any:
-    return samples if samples.ndim == 1 else apart(samples, samples[:1])
+    return samples if samples.ndim == 1 else deviation(samples, samples[:1])
 
 
 def _index(case: Case, times: Array) -> pd.Index:

@@ -15,9 +15,9 @@ from ....cases.fields.number import Amount
 from ....cases.model_case import JOINTS, ModelCase, ModelStart
 from ....engines.own_model.changed import Changed, changes, option
 from ....engines.own_model.limit import INTEGRATORS, NoLimit, apart_by_pairs, limit
-from ....engines.own_model.model import OwnModel, apart
+from ....engines.own_model.model import OwnModel, joint_moves
 from ....engines.own_model.opened import Opened, opened
-from ....engines.own_model.seen import joint_of, motion, servos, shaking, short_of_target
+from ....engines.own_model.seen import joint_of, motion_at_steps, servos, shaking, short_of_target
 from ....engines.own_model.static import ALONE, SHORT, Suspicion, short_times, suspicions
 from ...compare.own_seen import ARRIVES, FEW, LATE, seen
 from ...compare.own_steps import (
@@ -155,7 +155,7 @@ def _further(asked: _Asked, suspected: Sequence[Suspicion]) -> _Asked | None:
 
 def _would_be_seen(asked: _Asked) -> bool:
     """Whether at its own steps anything diverges, or at the end shakes or stays far off."""
-    moved = motion(asked.own, asked.case.duration)
+    moved = motion_at_steps(asked.own, asked.case.duration)
     if moved is None:
         return True
     times, y = moved
@@ -271,14 +271,14 @@ def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
     What it is compared with is its own limit: it has equations of its own.
     """
     new, m = asked.of(change.own), asked.own.model
-    moved = motion(new.own, before.until)
+    moved = motion_at_steps(new.own, before.until)
     if moved is None or shaking(new.own, *moved, new.opened.joints):
         return None
     result = steps(asked.case, new.strict, (OF_STIFF,))
     if seen(new.opened, result.limit, result.until).joints:
         return None
     both = before.limit.times <= min(before.until, result.until)
-    off = np.abs(apart(m, before.limit.q, result.limit.q))[both].max(axis=0)
+    off = np.abs(joint_moves(m, before.limit.q, result.limit.q))[both].max(axis=0)
     k = int(np.argmax(off / asked.opened.joints))
     name, unit = joint_of(m, k)
     return replace(
@@ -301,7 +301,7 @@ def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
         written = limit(replace(asked.own, model=model), result.limit.times)
     except NoLimit:
         return
-    off = np.abs(apart(model, result.limit.q, written.q))[result.limit.times <= result.until]
+    off = np.abs(joint_moves(model, result.limit.q, written.q))[result.limit.times <= result.until]
     ratios = off.max(axis=0) / asked.opened.joints
     k = int(np.argmax(ratios))
     if off[:, k].max() > asked.opened.joints[k] + result.known + written.error:

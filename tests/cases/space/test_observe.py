@@ -14,7 +14,7 @@ from textmech.cases.scene.body import Body
 from textmech.cases.scene.chain import Turns
 from textmech.cases.scene.constraint import Edge
 from textmech.cases.scene.contact import spatial_contact
-from textmech.cases.scene.counting import far
+from textmech.cases.scene.counting import ambiguous_turns
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Freedom, Joint
 from textmech.cases.scene.motion import Motion
@@ -263,7 +263,7 @@ def test_only_the_middle_of_three_turns_can_pass_gimbal_lock(turns: int) -> None
     """0.2 rad in a step whose ends are 0.1 from it: the first and the last do not change that."""
     rates = np.tile(np.eye(3)[turns], (2, 1))
     found = Turns(rates * [[0.0], [0.2]], rates, np.full(2, 0.1))
-    assert far(found, np.array([0.0, 0.2])).tolist() == [turns == 1]
+    assert ambiguous_turns(found, np.array([0.0, 0.2])).tolist() == [turns == 1]
 
 
 def test_gap() -> None:

@@ -150,7 +150,7 @@ def opens(own: OwnModel, module: Any = drawing) -> float:
     """How far [m] the pivot of the arm opens between two samples, seen from both of its bodies."""
     y, m = drawn(own, 3), own.model
     y[1:, 3:7] = y[0, 3:7]
-    _, finer = module.between(own, np.array([0.0, 0.1, 0.2]), y, 4)
+    _, finer = module.refined(own, np.array([0.0, 0.1, 0.2]), y, 4)
     moves, worst = states(own, finer), 0.0
     ours, theirs = moves["arm"], moves["box"]
     for arm, box in zip(ours, theirs, strict=True):
@@ -182,7 +182,7 @@ def quarter(module: Any = drawing) -> list[float]:
     )
     t = np.array([0.0, 1.0, 3.0])
     y = np.stack([t**3 - t, 3 * t**2 - 1], axis=1)
-    times, finer = module.between(own, t, y, 4)
+    times, finer = module.refined(own, t, y, 4)
     assert times.tolist() == [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0]
     assert finer[::4] == pytest.approx(y)
     return finer[5].tolist()

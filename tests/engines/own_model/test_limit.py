@@ -13,7 +13,7 @@ from textmech.cases.fields.signal import Signal
 from textmech.engines.own_model import equations as ours
 from textmech.engines.own_model import limit as limits
 from textmech.engines.own_model.limit import limit, stepped
-from textmech.engines.own_model.model import OwnModel, apart, compiled_text
+from textmech.engines.own_model.model import OwnModel, compiled_text, joint_moves
 
 Motion = Callable[[np.ndarray], np.ndarray]
 TIMES = np.linspace(0.0, 1.0, 11)
@@ -109,7 +109,7 @@ def test_a_piece_sees_what_stands_before_the_jump_at_its_end() -> None:
     for k, module in enumerate((ours, otherwise(ours, "min(t, self.before)", "t"))):
         own = driven(STEP)
         equations = module.Equations(own, own.start())
-        equations.followed(TIMES, limits._tight(1))
+        equations.followed(TIMES, limits._fine(1))
         asked[k] = module.MOST - equations.left
     assert asked[1] > 1.5 * asked[0]
 
@@ -178,7 +178,7 @@ def test_small_steps_reach_what_the_integrators_do(
     monkeypatch.setattr(limits, "Equations", module.Equations)
     rough = limit(own, SHORT, within=1e-5)
     assert rough.method == "small steps"
-    off = float(np.abs(apart(own.model, rough.q, exact.q)).max())
+    off = float(np.abs(joint_moves(own.model, rough.q, exact.q)).max())
     near = off < 2 * max(rough.error, 1e-6)
     good = near and rough.error < 1e-5 and rough.fineness.parts > limits.PARTS
     assert good is (what == "nothing")
@@ -187,7 +187,7 @@ def test_small_steps_reach_what_the_integrators_do(
 def test_it_is_known_until_two_answers_part() -> None:
     errors = np.array([0.0, 1e-9, 1e-5, 1e-2])
     exact = limits.Limit(
-        np.arange(4.0), np.zeros((4, 2)), np.zeros((4, 1)), errors, "", limits._tight(1)
+        np.arange(4.0), np.zeros((4, 2)), np.zeros((4, 1)), errors, "", limits._fine(1)
     )
     assert exact.error == 1e-2
     assert [exact.known_until(within) for within in (1e-10, 1e-5, 1e-4, 1.0)] == [0, 2, 2, 3]
@@ -197,7 +197,7 @@ def test_a_disturbance_is_followed_as_finely_as_the_limit() -> None:
     own = compiled_text(SERVO)
     start, exact = own.start(), limit(own, TIMES)
     start.qpos[0] += 1e-6
-    off = np.abs(limits.repeated(own, exact, start) - exact.y)[:, 0]
+    off = np.abs(limits.repeat_limit(own, exact, start) - exact.y)[:, 0]
     assert off[0] == pytest.approx(1e-6)
     assert off[-1] < 1e-6
 

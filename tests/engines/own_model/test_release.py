@@ -24,17 +24,17 @@ def test_a_column_that_lacks_is_what_a_plain_model_has(name: str) -> None:
     here, absent = release.column(model, name), release.ABSENT[name](model)
     assert here.shape[:1] == absent.shape[:1]
     assert np.all(here == absent)
-    yields = otherwise(release, '"jnt_plasticadr": _all("njnt", -1)', '"jnt_plasticadr": _each')
+    old = otherwise(release, '"jnt_plasticadr": _filled("njnt", -1)', '"jnt_plasticadr": _indices')
     if name == "jnt_plasticadr":
-        assert yields.ABSENT[name](model).tolist() != here.tolist()
+        assert old.ABSENT[name](model).tolist() != here.tolist()
 
 
 @pytest.mark.mutant("an old release whose actuators have all one control")
 def test_a_release_that_has_a_column_is_asked() -> None:
     model = compiled_text(PLAIN).model
-    absent = otherwise(release, '"actuator_ctrladr": _each', '"actuator_ctrladr": _all("nu", 0)')
-    assert absent.ABSENT["actuator_ctrladr"](model).tolist() != [0, 1]
-    assert absent.column(model, "actuator_ctrladr").tolist() == [0, 1]
+    old = otherwise(release, '"actuator_ctrladr": _indices', '"actuator_ctrladr": _filled("nu", 0)')
+    assert old.ABSENT["actuator_ctrladr"](model).tolist() != [0, 1]
+    assert old.column(model, "actuator_ctrladr").tolist() == [0, 1]
 
 
 def direct(text: str) -> list[str]:

@@ -255,7 +255,7 @@ WRONG = [
     ("brake", constraints, '{"kinetic": c.max_force}', '{"kinetic": 2 * c.max_force}'),
     ("weld", constraints, "s * (c.phase - o)", "s * (o - c.phase)"),
     ("spring", constraints, '"rest_length": c.rest_length', '"rest_length": c.rest_length + 0.1'),
-    ("groove", constraints, "tuple(seen.normalized())", "tuple(-seen.normalized())"),
+    ("groove", constraints, "tuple(direction.normalized())", "tuple(-direction.normalized())"),
     ("pin", constraints, "c.anchor_b, f", "c.anchor_b + (0.1, 0.0), f"),
     ("centre of mass", reading, "local - body.center_of_gravity", "local"),
     ("hook", reading, '"velocity": tuple(body.velocity)', '"velocity": (0.0, 0.0)'),

@@ -225,7 +225,7 @@ def test_a_shape_that_is_misread_is_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     changed = otherwise(shapes, was, now)
-    for name in ("outlines", "colliding", "touches", "shaped"):
+    for name in ("outlines", "collisions", "find_contacts", "body_shapes"):
         monkeypatch.setattr(space, name, getattr(changed, name))
     assert off(kind) > 1e3 * CLOSE
 

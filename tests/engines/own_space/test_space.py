@@ -197,7 +197,7 @@ def test_the_end_of_a_line_is_seen_where_it_is_passed() -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("a line that goes on beyond its ends")
 def test_a_line_without_ends_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(space, "beside", lambda *_: {})
+    monkeypatch.setattr(space, "past_end_times", lambda *_: {})
     case = space_case(falling(line(-1.0, 0.8), vx=2.0), "space", "space")
     assert case.scene.contacts
 

@@ -11,7 +11,7 @@ import numpy as np
 from textmech import engines
 from textmech.cases.case import Case
 from textmech.cases.scene import Scene, Viscous
-from textmech.cases.scene.forces.force import of
+from textmech.cases.scene.forces.force import of_kind
 from textmech.cases.scene.frame import PLANE
 from textmech.cases.trajectory import Array, Trajectory
 from textmech.engines.engine import Engine, Plan, Realised, Refusal, Start
@@ -91,7 +91,7 @@ def damps(engine: Engine, scene: Scene) -> list[Viscous]:
     MuJoCo by three powers of the speed, pymunk by the first, of the one body of a shipped scene.
     """
     powers = (1, 2, 3) if engine.name == "mujoco" else (1,) if len(scene.bodies) == 1 else ()
-    slides = of(Viscous, scene.forces.values())
+    slides = of_kind(Viscous, scene.forces.values())
     return [f for f in slides if f.exponent in powers if len({*astuple(f.coefficient)}) == 1]
 
 

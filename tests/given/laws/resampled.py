@@ -7,7 +7,7 @@ import numpy as np
 
 from textmech.cases.case import Case
 from textmech.cases.fields.kind import WORK
-from textmech.cases.scene.difference import apart
+from textmech.cases.scene.difference import deviation
 from textmech.cases.scene.observe import observe
 from textmech.reference.certificate.errors import ERROR
 from textmech.reference.solve import Solution
@@ -59,7 +59,7 @@ def differences(case: Case, one: Solution, other_case: Case, other: Solution) ->
         b = observe(case.scene, other.trajectory, name)[theirs]
         size = float(np.max(np.abs(observe(case.scene, one.trajectory, name))))
         bar = LOOSER * sum(errors.get(name, 0.0) for errors in sure) + ROUNDED * size + ZERO
-        if not (worst := float(np.max(apart(a, b)))) <= bar:
+        if not (worst := float(np.max(deviation(a, b)))) <= bar:
             yield f"{name} differs by {worst:.2e}, and {bar:.2e} is allowed"
     yield from _events(case, one, other, sure)
 

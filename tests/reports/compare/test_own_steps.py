@@ -14,7 +14,7 @@ from textmech.cases.model_case import JOINTS, TOLERANCE, ModelCase, of_model
 from textmech.engines.own_model import equations as ours
 from textmech.engines.own_model import limit as limits
 from textmech.engines.own_model.limit import NoLimit, limit
-from textmech.engines.own_model.model import OwnModel, apart, compiled_text
+from textmech.engines.own_model.model import OwnModel, compiled_text, joint_moves
 from textmech.engines.own_model.opened import opened
 from textmech.engines.own_model.step_law import with_step
 from textmech.reference.formalisms import tree_equations
@@ -131,11 +131,11 @@ def test_a_free_body_tumbles_as_its_steps_do(monkeypatch: pytest.MonkeyPatch) ->
     own = compiled_text(TUMBLER)
     exact, fine = limit(own, TIMES), limits.stepped(own, TIMES, "RK4", 0.00125)
     assert fine is not None
-    assert np.abs(apart(own.model, exact.q, fine)).max() < 1e-7
+    assert np.abs(joint_moves(own.model, exact.q, fine)).max() < 1e-7
     wrong = otherwise(ours, "q + 4], v[at : at + 3])", "q + 4], -v[at : at + 3])")
     monkeypatch.setattr(limits, "Equations", wrong.Equations)
     other = limit(own, TIMES)
-    assert np.abs(apart(own.model, other.q, fine)).max() > 1e-2
+    assert np.abs(joint_moves(own.model, other.q, fine)).max() > 1e-2
 
 
 def test_what_diverges_has_no_error() -> None:
@@ -158,7 +158,7 @@ def test_the_law_is_that_of_the_models_own_step() -> None:
     wrong: ModuleType = otherwise(limits, "] = least", "] *= 1.0")
     exact = limit(own, TIMES)
     fine = {module: module.stepped(own, TIMES, "RK4", 2e-5) for module in (limits, wrong)}
-    off = {module: np.abs(apart(own.model, exact.q, q)).max() for module, q in fine.items()}
+    off = {module: np.abs(joint_moves(own.model, exact.q, q)).max() for module, q in fine.items()}
     assert off[limits] < 1e-5
     assert off[wrong] > 1e-4
 

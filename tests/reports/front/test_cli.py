@@ -25,7 +25,7 @@ from textmech.cases.case import Case
 from textmech.cases.find import models, questions
 from textmech.cases.mistake import Mistake
 from textmech.cases.scene import unnamed
-from textmech.cases.scene.unnamed import through
+from textmech.cases.scene.unnamed import penetrations
 from textmech.reference import solve as solving
 from textmech.reference.solve import solve
 from textmech.reports import solve as solved
@@ -553,7 +553,7 @@ LENGTH = {DOMINO: 0.5, STACKED: 0.1, SPACE: 0.1}
 
 def told(text: str, more: str = "") -> list[str]:
     case = scenes.parsed(text.replace("MORE", more), tail=scenes.tail(LENGTH[text], 26))
-    return [*through(case.scene, solve(case).trajectory)]
+    return [*penetrations(case.scene, solve(case).trajectory)]
 
 
 @pytest.mark.parametrize(
@@ -576,7 +576,7 @@ def test_how_deep_is_what_the_angle_says() -> None:
     motion = solve(case).trajectory
     angle = motion.states["box"][:, 2]
     above = 0.4 * np.cos(angle) - 0.1 * np.sin(angle)
-    (warning,) = through(case.scene, motion)
+    (warning,) = penetrations(case.scene, motion)
     assert f"goes {-1e3 * min(above):.3g} mm deep" in warning
 
 
@@ -592,7 +592,7 @@ def test_nothing_is_told_of_what_is_named() -> None:
 def test_no_shipped_case_is_warned_of() -> None:
     for name, case in scenes.SHIPPED.items():
         if case.scene.contacts or case.scene.pairs:
-            assert [*through(case.scene, scenes.solved(name).trajectory)] == [], name
+            assert [*penetrations(case.scene, scenes.solved(name).trajectory)] == [], name
 
 
 @pytest.fixture

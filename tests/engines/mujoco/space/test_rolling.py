@@ -29,7 +29,7 @@ from scipy.spatial.transform import Rotation
 from textmech.cases.scene import Anchor, Scene
 from textmech.cases.scene.body import Body
 from textmech.cases.scene.contact import spatial_contact
-from textmech.cases.scene.difference import apart
+from textmech.cases.scene.difference import deviation
 from textmech.cases.scene.frame import SPACE
 from textmech.cases.scene.joint import Joint
 from textmech.cases.scene.observe import observe
@@ -241,7 +241,7 @@ def errors(name: str, step: float, *, told: bool, monkeypatch: pytest.MonkeyPatc
     )  # fmt: skip
     monkeypatch.undo()
     both = [observe(case.scene, motion, "disk.attitude")[: ENDS[name]] for motion in (known, found)]
-    return float(np.max(apart(*both)))
+    return float(np.max(deviation(*both)))
 
 
 @pytest.mark.slow

@@ -111,7 +111,7 @@ def test_a_static_number_is_that_of_the_formula(what: str, was: str, now: str) -
 @pytest.mark.mutant("a turn of a motion that is called a shake")
 def test_a_swing_is_no_shake(monkeypatch: pytest.MonkeyPatch) -> None:
     hopper = opened(case("hopper")).own
-    moved = seen.motion(hopper, 0.6)
+    moved = seen.motion_at_steps(hopper, 0.6)
     assert moved is not None
     bars = [1e-3] * hopper.model.nv
     assert seen.shaking(hopper, *moved, bars) == {}  # type: ignore[arg-type]
