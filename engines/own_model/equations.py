@@ -78,12 +78,8 @@ class Equations:
 
     @property
     def method(self) -> str:
-        """Returns in words how the last answer was integrated."""
-        whole = sum(self.over.values())
-        shares = [(name, over / whole) for name, over in self.over.items() if over]
-        if len(shares) == 1:
-            return shares[0][0]
-        return ", ".join(f"{name} for {share:.0%} of the time" for name, share in shares)
+        """Returns by what the last answer was integrated; for how long is the processor's."""
+        return " and ".join(name for name, over in self.over.items() if over)
 
     def rate(self, t: float, y: Any) -> Any:
         """Returns ẏ; q̇ of a quaternion is ½ q ∘ (0, ω)."""
