@@ -55,7 +55,7 @@ def numbers(model: mujoco.MjModel, start: mujoco.MjData, places: Places) -> Tree
         np.array(m.dof_armature),
         np.array(m.dof_damping) if damps else np.zeros(m.nv),
         [*_springs(m, joints)] if springs else (),
-        [_line(m, i, springs=springs, damps=damps) for i in fixed_tendons(m)],
+        [_tendon(m, i, springs=springs, damps=damps) for i in fixed_tendons(m)],
         [_motor(m, i) for i in range(actuators(m)) if acts and not _unread_actuator(m, i)],
         _clamped_ranges(m),
         np.array([bool(m.jnt_actgravcomp[j]) for j in m.dof_jntid], dtype=bool),
@@ -135,17 +135,19 @@ def fixed_tendons(m: mujoco.MjModel) -> list[int]:
     return [i for i in range(m.ntendon) if mujoco.mjtWrap(m.wrap_type[m.tendon_adr[i]]) == joint]
 
 
-def _sum(m: mujoco.MjModel, tendon: int) -> Array:
+def _moment_arms(m: mujoco.MjModel, tendon: int) -> Array:
+    """Returns the derivative of a fixed tendon's length by each velocity's coordinate (nv,)."""
     coefficients = np.zeros(m.nv)
     for k in range(m.tendon_adr[tendon], m.tendon_adr[tendon] + m.tendon_num[tendon]):
         coefficients[m.jnt_dofadr[m.wrap_objid[k]]] += m.wrap_prm[k]
     return coefficients
 
 
-def _line(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
+def _tendon(m: mujoco.MjModel, i: int, *, springs: bool, damps: bool) -> Line:
+    """Returns a fixed tendon as a spring and damper on a sum of coordinates."""
     return Line(
         element_name(m, OBJECT.mjOBJ_TENDON, i),
-        _sum(m, i),
+        _moment_arms(m, i),
         (float(m.tendon_lengthspring[i, 0]), float(m.tendon_lengthspring[i, 1])),
         float(m.tendon_stiffness[i]) if springs else 0.0,
         float(m.tendon_damping[i]) if damps else 0.0,
@@ -178,7 +180,7 @@ def _unread_actuator(m: mujoco.MjModel, i: int) -> str:
 def _motor(m: mujoco.MjModel, i: int) -> Motor:
     target, control = m.actuator_trnid[i, 0], column(m, "actuator_ctrladr")[i]
     if mujoco.mjtTrn(m.actuator_trntype[i]) == mujoco.mjtTrn.mjTRN_TENDON:
-        moments = _sum(m, target)
+        moments = _moment_arms(m, target)
     else:
         moments = np.zeros(m.nv)
         moments[m.jnt_dofadr[target]] = 1.0
@@ -203,6 +205,7 @@ def _range(pair: Array, limited: bool) -> tuple[float, float]:
 
 
 def _clamped_ranges(m: mujoco.MjModel) -> Array:
+    """Returns the least and the greatest actuator force on each velocity (nv, 2)."""
     bounds = np.tile([-np.inf, np.inf], (m.nv, 1))
     for j in np.flatnonzero(m.jnt_actfrclimited):
         if KINDS[int(m.jnt_type[j])] in ("slide", "hinge"):

@@ -29,8 +29,8 @@ class Opened:
     bars: Mapping[Quantity, float]
 
     @property
-    def joints(self) -> Array:
-        """(n,) [rad, m] what each velocity's joint may be off; where nobody bounds it the least."""
+    def joint_bars(self) -> Array:
+        """The bar of each velocity (n,), rad or m; the least of all where its joint has none."""
         each = np.full(self.own.model.nv, min(self.bars.values()))
         for quantity, bar in self.bars.items():
             if quantity.of == "joint":

@@ -29,7 +29,7 @@ class Places:
 
 
 def places(model: mujoco.MjModel, xml: str | Path | None, file: str) -> Places:
-    """Returns the lines of a model that was compiled from a text or a file, which is called so.
+    """Returns the line in its file of each element and option of a model, where it is certain.
 
     An element is known by its name. One without a name is by its number, if the file holds as many
     of its kind as the model, all called alike and in the same order, and includes nothing.

@@ -110,7 +110,7 @@ class Motion:
 
 
 def differences(selection: Sequence[Quantity], a: Motion, b: Motion) -> dict[Quantity, Array]:
-    """Returns by quantity (N, k) how two motions differ, in components; of a turn the angle."""
+    """Returns by quantity (N, k) b minus a, in components; of a body's turn the angle alone."""
     by_joint = joint_moves(a.own.model, a.q, b.q)
     others = [quantity for quantity in selection if quantity.of != "joint"]
     ours, theirs = observed(others, a), observed(others, b)
@@ -127,13 +127,13 @@ def differences(selection: Sequence[Quantity], a: Motion, b: Motion) -> dict[Qua
 
 def _angles(p: Array, q: Array) -> Array:
     """(N, 1) [rad]: the angles of the turns from attitudes (N, 4) to others."""
-    sign = np.sign(np.einsum("ij,ij->i", p, q))[:, None]
+    sign = np.where(np.einsum("ij,ij->i", p, q) < 0.0, -1.0, 1.0)[:, None]
     half = np.linalg.norm(p * sign - q, axis=1, keepdims=True) / 2
     return 4 * np.arcsin(np.minimum(half, 1.0))
 
 
 def observed(selection: Sequence[Quantity], motion: Motion) -> dict[Quantity, Array]:
-    """Returns (N, k) by quantity, as MuJoCo computes it in the states."""
+    """Returns (N, k) by quantity, none of a joint, as MuJoCo computes it in the motion's states."""
     values: dict[Quantity, list[Array]] = {quantity: [] for quantity in selection}
     if not selection:
         return {}

@@ -42,7 +42,7 @@ def seen(opened: Opened, exact: Limit, until: float, *, off: bool = True) -> See
     model at rest is much beside a kinetic energy of nothing.
     """
     own = opened.own
-    shown = signs(own, exact, until, opened.joints)
+    shown = signs(own, exact, until, opened.joint_bars)
     if shown is None:
         when, dof = diverges(own, until)
         who = "it" if dof is None else joint_of(own.model, dof)[0]
@@ -51,7 +51,7 @@ def seen(opened: Opened, exact: Limit, until: float, *, off: bool = True) -> See
     short = {
         k: off
         for k, off in short_of_target(own, shown.end, shown.y).items()
-        if off > opened.joints[k] and arrives[k] < ARRIVES * off
+        if off > opened.joint_bars[k] and arrives[k] < ARRIVES * off
     }
     words = {
         k: _words(opened, exact, until, k, shown, short) for k in sorted({*short, *shown.shakes})

@@ -33,7 +33,7 @@ def silent(what: str, done: int, total: int, last: str = "", part: float = 0.0, 
 
 @dataclass(frozen=True)
 class Results:
-    """The means that every phase of a run needs: executor, progress, store and keys."""
+    """Executor, progress, store and keys, by which a run computes tasks or finds them stored."""
 
     executor: Executor
     progress: Progress

@@ -20,7 +20,7 @@ G, GAMMA = -2, -1  # where g and γ stand in a row of n + 2 numbers
 
 
 class Held(Protocol):
-    """What the table needs of a constraint: its rows."""
+    """A constraint as the table needs it: its rows."""
 
     @property
     def size(self) -> int: ...
@@ -30,7 +30,7 @@ class Held(Protocol):
 
 
 class Acting(Protocol):
-    """What the table needs of a force element: its loads."""
+    """A force element as the table needs it: its loads."""
 
     name: str
 

@@ -69,7 +69,7 @@ def picture(
 
 
 def _worst(rows: Sequence[Comparison]) -> Iterator[str]:
-    """Yields the worst quantity of each setting."""
+    """Yields a line of text for each setting: its largest ratio, or its verdict if it has none."""
     worst = {column(row): row for row in sorted(rows, key=lambda row: row.ratio or 0.0)}
     for shown in ordered(worst):
         row = worst[shown]

@@ -136,7 +136,7 @@ def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
 
 
 def _remains(tried: Advised, search: Search) -> dict[str, str | float]:
-    """Columns: what no recipe brings within, what the engine leaves out of the scene."""
+    """Describes the run nearest to passing, and why it is no recipe, as columns of advice.csv."""
     assert isinstance(tried.way, Plan)
     nearest = best(search)
     columns: dict[str, str | float] = {}

@@ -159,10 +159,10 @@ def _would_be_seen(asked: _Asked) -> bool:
     if moved is None:
         return True
     times, y = moved
-    shakes = shaking(asked.own, times, y, asked.opened.joints)
+    shakes = shaking(asked.own, times, y, asked.opened.joint_bars)
     short = short_of_target(asked.own, float(times[-1]), y[-1])
     late = any(shake.ends >= LATE * times[-1] for shake in shakes.values())
-    return late or any(off > asked.opened.joints[k] for k, off in short.items())
+    return late or any(off > asked.opened.joint_bars[k] for k, off in short.items())
 
 
 def _advice_on(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
@@ -272,14 +272,14 @@ def _changed(asked: _Asked, change: Changed, before: Steps) -> Recipe | None:
     """
     new, m = asked.of(change.own), asked.own.model
     moved = motion_at_steps(new.own, before.until)
-    if moved is None or shaking(new.own, *moved, new.opened.joints):
+    if moved is None or shaking(new.own, *moved, new.opened.joint_bars):
         return None
     result = steps(asked.case, new.strict, (OF_STIFF,))
     if seen(new.opened, result.limit, result.until).joints:
         return None
     both = before.limit.times <= min(before.until, result.until)
     off = np.abs(joint_moves(m, before.limit.q, result.limit.q))[both].max(axis=0)
-    k = int(np.argmax(off / asked.opened.joints))
+    k = int(np.argmax(off / asked.opened.joint_bars))
     name, unit = joint_of(m, k)
     return replace(
         _recipe(new, result.settings[0], m.opt.timestep),
@@ -302,9 +302,9 @@ def _softened(asked: _Asked, result: Steps) -> Iterator[str]:
     except NoLimit:
         return
     off = np.abs(joint_moves(model, result.limit.q, written.q))[result.limit.times <= result.until]
-    ratios = off.max(axis=0) / asked.opened.joints
+    ratios = off.max(axis=0) / asked.opened.joint_bars
     k = int(np.argmax(ratios))
-    if off[:, k].max() > asked.opened.joints[k] + result.known + written.error:
+    if off[:, k].max() > asked.opened.joint_bars[k] + result.known + written.error:
         name, unit = joint_of(model, k)
         who = ", ".join(
             [*[element for element, _ in raised[:FEW]], *(["…"] if raised[FEW:] else [])]

@@ -101,7 +101,7 @@ def _both(old: Row, new: Row, column: str) -> tuple[float | None, float | None]:
 
 
 def _of_an_error(old: Row, new: Row, rule: Rule, allowed: float | None) -> str | None:
-    """Judges by the verdict, else by the error in one unit, else by the question."""
+    """Judges by the verdict, else by the error in one unit, else by a new unit or tolerance."""
     if old["verdict"] != new["verdict"]:
         return WORSE if rank(new["verdict"]) > rank(old["verdict"]) else BETTER
     was, now = _both(old, new, "error")

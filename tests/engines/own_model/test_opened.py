@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from given.otherwise import otherwise
 
 from textmech.cases.fields.number import Amount
 from textmech.cases.fields.signal import Signal
 from textmech.cases.mistake import CaseError, Path, Source
 from textmech.cases.model_case import JOINTS, ModelCase, ModelStart, RandomRates, of_model
+from textmech.engines.own_model import quantities as module
 from textmech.engines.own_model.opened import opened
 from textmech.engines.own_model.quantities import Motion, differences, quantities
 
@@ -140,3 +142,12 @@ def test_names_that_a_table_would_misread_are_quoted() -> None:
     names = [q.name for q in quantities(opened(case_of(given=text)).own.model)]
     assert "'=HYPERLINK(1)'.angle" in names
     assert all(name[0] not in "=+-@#" for name in names)
+
+
+@pytest.mark.mutant("half a turn, whose attitudes are at right angles, taken for two thirds")
+def test_half_a_turn_is_no_less() -> None:
+    p, q = np.array([[1.0, 0.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0, 0.0]])
+    assert module._angles(p, q) == pytest.approx(np.pi)
+    was = 'np.where(np.einsum("ij,ij->i", p, q) < 0.0, -1.0, 1.0)'
+    blind = otherwise(module, was, 'np.sign(np.einsum("ij,ij->i", p, q))')
+    assert blind._angles(p, q) != pytest.approx(np.pi)

@@ -182,7 +182,7 @@ def shown(made: SimpleNamespace, beside: dict[str, pd.DataFrame]) -> str:
 
 
 @pytest.mark.slow
-def test_planted_mistakes_are_counted_where_there_is_a_list(made: SimpleNamespace) -> None:
+def test_a_list_of_other_tests_is_counted_where_there_is_one(made: SimpleNamespace) -> None:
     frame = pd.DataFrame({"planted": ["gravity upside down", "a term left out"]})
     assert "tests plant 2: <code>" in shown(made, {MUTANTS: frame})
     assert MUTANTS not in shown(made, {})
