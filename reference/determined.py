@@ -90,7 +90,7 @@ def _samples(
 def _open_quantities(
     case: Case, poses: Mapping[str, Pose], leeway: Leeway, forces: list[str]
 ) -> Iterator[tuple[str, float, Spans]]:
-    """Yields each quantity that equilibrium leaves open, its width, and the spans of forces."""
+    """Yields each open quantity, its width as a share of the largest force, and the spans."""
     states = {name: np.tile(pose, (STEADY, 1)) for name, pose in poses.items() if len(pose) > 1}
     inner = {name: pose[0] for name, pose in poses.items() if len(pose) == 1}
     times = np.arange(float(STEADY))

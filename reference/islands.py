@@ -60,7 +60,7 @@ def _part(case: Case, scene: Scene, corners: tuple[float, ...]) -> Case:
 
 
 def together(case: Case, islands: Sequence[Island]) -> tuple[Trajectory, tuple[Check, ...]]:
-    """The motion of all, and of each check the gravest; errors of sums are sums of errors."""
+    """The joined motion; of each check the gravest, errors of sums summed, and their isolation."""
     motion = joined(case, islands, case.times)
     checks: dict[str, list[Check]] = {}
     for check in (check for island in islands for check in island.checks):
@@ -95,7 +95,7 @@ def _of_all(checks: Sequence[Check]) -> Check:
 
 
 def _isolation(case: Case, motion: Trajectory, islands: Sequence[Multibody]) -> Check:
-    """The accelerations of the whole scene, in which an island feels nothing of the others.
+    """Checks that each island alone has the accelerations that it has in the whole scene.
 
     At any rates, because a damper between two islands at rest does nothing.
     """

@@ -105,7 +105,7 @@ def names(parameters: object) -> Names:
 
 
 def amount(value: object, known: Names = NONE) -> Amount:
-    """A literal or a quantity with its unit, in SI; known: what else a formula may name."""
+    """Reads a literal or a quantity with its unit, in SI; `known` serves a formula's refusal."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return Amount(_check_size(float(value), value))
     short = isinstance(value, str) and len(value) <= SHORT
@@ -157,7 +157,7 @@ def _operand(word: str, known: Names) -> float | None:
 
 
 def number(value: object, unit: str | None, known: Names) -> Amount | None:
-    """Parse any number of the language, in SI; None where it, or its parameter, is mistaken."""
+    """Returns a number in SI; None if its mistake, or its parameter's, is already reported."""
     if value is MISTAKEN:
         return None
     if not isinstance(value, str) or not _NAME.fullmatch(name := value.removeprefix("-")):

@@ -156,7 +156,7 @@ def laws(
 
 
 def _speeds(base: Multibody, marched: Trajectory) -> Array:
-    """The largest |v| of a kind, and at least what goes through the size, or 1 rad, in the time.
+    """(n,) Scale of each speed: the largest of its kind, and at least size/duration.
 
     At any step: a motion may be sampled where nothing moves.
     """
@@ -176,7 +176,7 @@ def _speeds(base: Multibody, marched: Trajectory) -> Array:
 
 
 def of_mode(mode: Mode, scale: Scale, times: Array, y: Array, *, written: bool) -> Iterator[Check]:
-    """Checks the explicit accelerations against each formalism along the motion.
+    """Checks accelerations, power and reactions by Lagrange and Newton-Euler along the motion.
 
     Differences are relative to the largest term: of the accelerations and powers themselves, or of
     those that each force alone would give, since at rest the forces cancel but for rounding.
@@ -272,7 +272,7 @@ def _rounding(mode: Mode, condition: float) -> float:
 
 
 def _held_together(mode: Mode, t: float, q: Array, v: Array) -> float:
-    """Rounding error where many constraints hang on each other, a power of ten: 1e-9 of 60 pins.
+    """Rounding error where constraints nearly depend on each other: 1e-9 of 60 pins.
 
     By the condition of their rows, each of size 1, and not of their masses, which `_rounding` has:
     of chains of 40 to 100 bars measured six times ε and this condition. Nothing is said of rows
@@ -287,7 +287,7 @@ def _held_together(mode: Mode, t: float, q: Array, v: Array) -> float:
 def _other_forces(
     mode: Mode, cut_free: Mapping[str, float], t: float, q: Array, v: Array
 ) -> float | None:
-    """Relative difference of the reactions of both; sliding friction is no reaction of a cut."""
+    """Relative difference of reactions from Newton-Euler's; None of none, as sliding friction."""
     written = mode.reactions(t, q, v)
     if not cut_free.keys() & written.keys():
         return None
@@ -379,7 +379,7 @@ def _slopes(mode: Mode, t: float, q: Array, v: Array) -> Array:
 
 
 def _answers(mode: Mode, t: float, q: Array, v: Array) -> bool:
-    """Whether the mode knows its accelerations there; raises ArithmeticError if not."""
+    """Whether accelerations are finite there; an ArithmeticError of the mode is passed on."""
     return bool(np.all(np.isfinite(mode.accelerations(t, q, v))))
 
 

@@ -20,7 +20,7 @@ def contacts(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
 
 
 def _touches(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Every mistake in the sound contacts."""
+    """Yields every mistake in contacts with planes of the ground; pairs are skipped."""
     first: dict[tuple[Anchor, str], str] = {}
     for name, contact in parsed.file.scene.contacts.items():
         path = ("scene", "contacts", name)
@@ -196,7 +196,7 @@ def _untouchable(body: Body, pair: Pair) -> str | None:
 
 
 def _rolls(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
-    """Every mistake in the sound contacts."""
+    """Yields every mistake in the contacts of a scene in space: rolling and pivots."""
     first: dict[str, str] = {}
     for name, contact in parsed.file.scene.contacts.items():
         path = ("scene", "contacts", name, "between")

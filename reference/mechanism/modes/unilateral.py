@@ -124,7 +124,7 @@ class Limited(Element):
 
 @dataclass(frozen=True, kw_only=True)
 class Roped(Limited):
-    """A rope's end."""
+    """An element of a rope: open while slack, held by its row at its full length."""
 
     endings: tuple[str, str] = ("slackens", "tightens")
 
