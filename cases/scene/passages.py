@@ -129,10 +129,10 @@ def _hidden(times: Array, u: Array, still: float) -> Iterator[tuple[float, float
 
     signs = np.where(u > 0.0, 1.0, -1.0)
     here = signs * u
-    left = np.append(np.inf, signs[1:] * u[:-1])
-    right = np.append(signs[:-1] * u[1:], np.inf)
-    near = (here > 0.0) & (here <= np.minimum(left, right))
-    near &= here <= np.maximum(left, right) - here
+    row_before = np.append(np.inf, signs[1:] * u[:-1])
+    row_after = np.append(signs[:-1] * u[1:], np.inf)
+    near = (here > 0.0) & (here <= np.minimum(row_before, row_after))
+    near &= here <= np.maximum(row_before, row_after) - here
     for i in np.flatnonzero(near).tolist():
         sign = float(signs[i])
         if (turn := _mirrored(times, sign * u, i)) is not None:

@@ -271,3 +271,28 @@ def test_the_plane_keeps_its_words(tmp_path: Path) -> None:
     path.write_text(SOUND_IN_SPACE.replace("  space: 3\n", ""), encoding="utf-8")
     places = {place.partition(":")[0] for place in found(path)}
     assert {".scene.joints.q1", ".initial.top.P"} <= places
+
+
+# cases/GLOSSARY.md has few words, each of them in the code or at the head of a table.
+
+ROOT = Path(__file__).parents[2]
+GLOSSARY = (ROOT / "cases/GLOSSARY.md").read_text("utf-8")
+EXPLAINED = re.findall(r"^\| (\w+) \| .+ \|.*\|$", GLOSSARY, re.M)[1:]
+MOST = 40
+
+
+def lacking(explained: list[str]) -> list[str]:
+    """The words that are in no module, and name no column of a table."""
+    rooms = [ROOT / room for room in ("cases", "reference", "engines", "reports")]
+    texts = [file.read_text("utf-8") for room in rooms for file in room.rglob("*.py")]
+    heads = [
+        file.read_text("utf-8").partition("\n")[0] for file in (ROOT / "reports").glob("*.csv")
+    ]
+    text = " ".join(texts + heads)
+    return [word for word in explained if not re.search(rf"\b{word}\b", text)]
+
+
+def test_the_glossary_has_few_words_and_all_are_ours() -> None:
+    assert 30 <= len(EXPLAINED) == len({*EXPLAINED}) <= MOST
+    assert lacking(EXPLAINED) == []
+    assert lacking(["case", "hyperparameter"]) == ["hyperparameter"]
