@@ -33,6 +33,7 @@ MISTAKES: list[tuple[str, dict[Any, Any], str]] = [
     ("mujoco", {"solimp": ["2h", 0.9, 0.001]}, "list of 3 or 5 finite numbers, is"),
     ("mujoco", {"impratio": "2h"}, "from 0 on"),
     ("mujoco", {"diagexact": 1}, "true or false"),
+    ("mujoco", {"settled": "yes"}, "true or false"),
     ("mujoco", {"contacts": "slidee"}, "did you mean 'slide'"),
     ("mujoco", {"pair": [2, 1]}, "should be a map of solref, solimp, solreffriction"),
     ("pymunk", {"iteration": 30}, "pymunk.iteration: unknown option; did you mean 'iterations'?"),
@@ -48,6 +49,8 @@ MISTAKES: list[tuple[str, dict[Any, Any], str]] = [
     ("pymunk", {"damping": "scene"}, "should be a number from 0 on, is 'scene'"),
     ("pymunk", {"midpoint": 1}, "pymunk.midpoint: should be true or false, is 1"),
     ("pymunk", {"seed": 1.0}, "pymunk.seed: should be a number from 0 to 0.001"),
+    ("pymunk", {"start_iterations": 0}, "whole number from 1 to 1000000, or scene"),
+    ("pymunk", {"max_bias": -1.0}, "pymunk.max_bias: should be a number from 0 on"),
 ]
 
 # In a group of MuJoCo's, with the whole line that names it.
