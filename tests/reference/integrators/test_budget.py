@@ -40,7 +40,7 @@ def test_what_does_not_ends_and_says_where_it_was() -> None:
     with budget(0.2), pytest.raises(Endless, match=what) as caught:
         follow(1e6)
     assert 0.0 < caught.value.time < 1e3
-    endless = otherwise(clock, "if thread_time() > end:", "if False:")
+    endless = otherwise(clock, "thread_time() > end", "False")
     with endless.budget(0.0):
         endless.spend(1.0)
 
