@@ -49,7 +49,7 @@ def test_a_fault_costs_the_engines_own_rows(
     engine: Faulty, moving: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(limit.VARIABLE, "1.0" if engine.act in ("hangs", "spins") else "60")
-    monkeypatch.setenv(limit.MEMORY, "2")
+    monkeypatch.setenv(limit.MEMORY, "1")
     if engine.verb == "run":  # as an installed one of somebody else's; the others break the pool
         monkeypatch.setattr(engines, "foreign", lambda name: True)
     report = measured(moving, engine, Faulty(setting="sound"))
@@ -64,7 +64,7 @@ def test_a_fault_costs_the_engines_own_rows(
         assert row.because.isprintable()
         assert row.because or row.verdict == AGREES
         if engine.act == "eats" and row.verdict == FAILS:
-            assert row.because.endswith("its process may take 2 GiB")
+            assert row.because.endswith("its process may take 1 GiB")
         assert row.realised == "native"
     write.write(write.tables(report, report.cases), tmp_path / "reports")
     with (tmp_path / "reports" / "tolerance.csv").open(encoding="utf-8", newline="") as file:
