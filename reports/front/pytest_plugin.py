@@ -107,6 +107,7 @@ def _seconds(word: str) -> float:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    """Sets the time limit of a task. Raises UsageError where the option or variable is no time."""
     seconds = config.getoption("textmech_time_limit")
     if seconds is not None or any(name in os.environ for name in _LIMITS):
         from ..compare.trial.limit import choose
@@ -178,6 +179,7 @@ def _is_case(argument: str) -> bool:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collects a case file that is named, or that `textmech_cases` of the configuration matches."""
     if file_path.suffix not in SUFFIXES:
         return None
     if parent.session.isinitpath(file_path) or _configured(file_path, parent.config):

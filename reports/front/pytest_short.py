@@ -7,6 +7,7 @@ import pytest
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
+    """Adds `--engine` and `--case`, short for the plug-in's own options."""
     group = parser.getgroup("textmech")
     for name in ("engine", "case"):
         group.addoption(

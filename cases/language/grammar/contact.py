@@ -19,6 +19,8 @@ from ...scene.point import CENTER, anchor
 
 
 class Contact(Part):
+    """Two things that may touch, with friction between them and what an impact leaves of speed."""
+
     between: tuple[Annotated[str, Text()], Annotated[str, Text()]] = Field(
         description="a disk, a particle, a point of a bar or spokes, then a plane of the ground, a "
         "disk or a side of a block"

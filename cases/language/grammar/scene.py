@@ -153,6 +153,8 @@ Moves = Annotated[Signal, Made(_moves, lambda written: written.signal)]
 
 
 class DrivenPoint(Part):
+    """A point of the ground that moves, evenly or by a law in time."""
+
     at: Position
     velocity: Velocity | None = None
     moves: Moves | None = Field(None, description="away from `at`, by a law in time")

@@ -84,4 +84,5 @@ def holds_angle(scene: Scene, joint: Joint) -> bool:
 
 
 def turns(scene: Scene, anchor: Anchor) -> bool:
+    """Whether the anchor is of a body that can turn: neither the ground nor a particle."""
     return anchor.body != GROUND and scene.bodies[anchor.body].turns

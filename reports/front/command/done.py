@@ -12,11 +12,13 @@ DONE: list[str] = []  # in words, as it comes
 
 
 def done() -> str:
+    """Returns in words what has been written."""
     return "; ".join(DONE) or "nothing was written"
 
 
 @contextmanager
 def finished(stored: bool) -> Iterator[None]:
+    """Notes on Ctrl-C that nothing was written; stored: that finished tasks are kept."""
     try:
         yield
     except KeyboardInterrupt:

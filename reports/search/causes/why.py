@@ -17,6 +17,7 @@ Key = tuple[str, str, str, str]
 
 
 def key_of(row: Comparison | Cause) -> Key:
+    """Returns the case, engine, setting and quantity of a row."""
     return row.case, row.engine, row.setting, row.quantity
 
 
