@@ -23,6 +23,7 @@ from ..tables.row import (
     StepError,
 )
 from .judge import metric
+from .judge.rows import Subject, measured
 from .own_equations import ROUNDING, Part, equations
 from .own_motion import motion
 from .own_seen import Seen, seen
@@ -77,7 +78,10 @@ def modelled(
         result = steps(case, ready, others, named)
     except NoLimit as error:
         because = f"no limit: {error}"
-        rows = [_refused(case, q, bar, because) for q, bar in ready.bars.items()]
+        rows = [
+            _about(case).row(q.name, q.unit, REFUSED, allowed=bar, because=because)
+            for q, bar in ready.bars.items()
+        ]
         return Modelled(case, str(own), own.started, None, parts, because, rows, (), (),
                         [*_certificates(case, parts)])  # fmt: skip
     parts.append(motion(own, result.limit))
@@ -87,13 +91,21 @@ def modelled(
     own_errors = result.settings[0].errors
     off = any(e.off is None or e.off.max() > ready.bars[q] for q, e in own_errors.items())
     shown = seen(ready, result.limit, result.until, off=off)
-    judged = [(stepped, q, error) for stepped in result.settings for q, error in
-            stepped.errors.items()]  # fmt: skip
+    judged = [
+        (_about(case, stepped.setting.name), (stepped, q, error))
+        for stepped in result.settings
+        for q, error in stepped.errors.items()
+    ]
+    ladders = [
+        (about, (HELD, q.name, q.unit, error.ladder))
+        for about, (_, q, error) in judged
+        if error.ladder
+    ]
     return Modelled(
         case, str(own), own.started, result, parts, "",
-        [_row(case, own, result, shown, *triple) for triple in judged],
-        [row for triple in judged for row in _rungs(case, *triple)],
-        [row for triple in judged for row in _step_errors(case, *triple)],
+        [_row(about, own, result, shown, *each) for about, each in judged],
+        [about.rungs(*ladder) for about, ladder in ladders],
+        [row for about, ladder in ladders for row in about.steps(*ladder, _few_digits)],
         certificates,
         {stepped.setting.name: integrator_of(own, stepped.setting) for stepped in result.settings},
         coordinates(own.model),
@@ -103,10 +115,7 @@ def modelled(
 
 def lost(case: ModelCase, because: str, verdict: str = CRASHED) -> Modelled:
     """Returns the row of a model that ended its process, took too long, or does not compile."""
-    row = Comparison(
-        case.name, THEME, case.title, ENGINE, VERSION, OWN, NATIVE, "", "motion", "",
-        None, None, None, None, None, None, None, verdict, because,
-    )  # fmt: skip
+    row = _about(case).row("motion", "", verdict, because=because)
     return Modelled(case, "", "", None, (), because, [row])
 
 
@@ -138,7 +147,7 @@ def line(model: Modelled, cure: str = "") -> ModelLine:
 
 
 def _row(
-    case: ModelCase,
+    about: Subject,
     own: OwnModel,
     result: Steps,
     shown: Seen,
@@ -146,73 +155,38 @@ def _row(
     q: Quantity,
     error: Error,
 ) -> Comparison:
-    bar, setting = result.bars[q], stepped.setting
-    limit = result.limit
-    how = f"{integrator_of(own, setting)} against the limit by {limit.method}"
+    bar, setting, known = result.bars[q], stepped.setting, result.known
     words = [shown.of(q)] if setting.name == OWN else []
+    verdict, numbers = DIVERGED, {}
     if error.off is None:
-        because = "; ".join(filter(None, [*words, "its own step diverges"]))
-        return _comparison(case, setting, q, bar, how, DIVERGED, because=because)
-    size = metric.error(error.off, error.off * 0.0)
-    known = result.known
-    least = max(known, DIGITS * size.largest)
-    largest = metric.round_to_floor(size.largest, least)
-    if largest - known > bar:
-        verdict = BEYOND
-    elif largest + known <= bar:
-        verdict = AGREES
+        words.append("its own step diverges")
     else:
-        verdict = REFUSED
-        words.append(f"the limit is known to {known:.0e} only")
-    if result.late:
-        words.append(f"judged until {result.until:.3g} s: {result.late}")
-    return _comparison(
-        case, setting, q, bar, how, verdict,
-        error=largest,
-        when=float(result.times[size.at]) if largest else None,
-        rms=metric.round_to_floor(size.rms, least),
-        final=metric.round_to_floor(size.final, least),
-        ratio=largest / bar,
+        size = metric.error(error.off, error.off * 0.0)
+        least = max(known, DIGITS * size.largest)
+        numbers = measured(size, least, bar, float(result.times[size.at]))
+        largest = numbers["error"]
+        if largest - known > bar:
+            verdict = BEYOND
+        elif largest + known <= bar:
+            verdict = AGREES
+        else:
+            verdict = REFUSED
+            words.append(f"the limit is known to {known:.0e} only")
+        if result.late:
+            words.append(f"judged until {result.until:.3g} s: {result.late}")
+    return about.row(
+        q.name, q.unit, verdict, step=setting.step, allowed=bar, **numbers,
+        protocol=f"{integrator_of(own, setting)} against the limit by {result.limit.method}",
         because="; ".join(filter(None, words)),
     )  # fmt: skip
 
 
-def _comparison(
-    case: ModelCase, setting: Setting, q: Quantity, bar: float, protocol: str, verdict: str,
-    *, error: float | None = None, when: float | None = None, rms: float | None = None,
-    final: float | None = None, ratio: float | None = None, because: str = "",
-) -> Comparison:  # fmt: skip
-    return Comparison(
-        case.name, THEME, case.title, ENGINE, VERSION, setting.name, NATIVE, protocol, q.name,
-        q.unit, setting.step, error, when, rms, final, bar, ratio, verdict, because,
-    )  # fmt: skip
+def _few_digits(error: float) -> float:
+    return metric.round_to_floor(error, DIGITS * error)
 
 
-def _refused(case: ModelCase, q: Quantity, bar: float, because: str) -> Comparison:
-    return Comparison(
-        case.name, THEME, case.title, ENGINE, VERSION, OWN, NATIVE, "", q.name, q.unit,
-        None, None, None, None, None, bar, None, REFUSED, because,
-    )  # fmt: skip
-
-
-def _rungs(case: ModelCase, stepped: Stepped, q: Quantity, error: Error) -> Iterator[Rungs]:
-    if (ladder := error.ladder) is None:
-        return
-    yield Rungs(
-        case.name, ENGINE, VERSION, stepped.setting.name, NATIVE, HELD, q.name, q.unit,
-        ladder.order, ladder.order_low, ladder.order_high, None, None, ladder.usable_step,
-        ladder.verdict,
-    )  # fmt: skip
-
-
-def _step_errors(
-    case: ModelCase, stepped: Stepped, q: Quantity, error: Error
-) -> Iterator[StepError]:
-    for h, size in sorted(error.ladder.errors.items()) if error.ladder else ():
-        rounded = metric.round_to_floor(size, DIGITS * size)
-        yield StepError(
-            case.name, ENGINE, stepped.setting.name, NATIVE, HELD, q.name, q.unit, h, rounded
-        )
+def _about(case: ModelCase, setting: str = OWN) -> Subject:
+    return Subject(case.name, THEME, case.title, ENGINE, VERSION, setting, NATIVE)
 
 
 def _certificates(case: ModelCase, parts: Sequence[Part]) -> Iterator[Certificate]:

@@ -1,6 +1,6 @@
 """Models of the user's own, from their cases to their rows."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from typing import Any
@@ -16,7 +16,7 @@ from ...engines.own_model.step_law import with_step
 from ..compare.own_rows import Modelled, lost, modelled
 from ..compare.own_steps import OTHERS, OWN, Setting
 from ..compare.own_steps import settings_of as settings_for
-from ..tables.row import REFUSED
+from ..tables.row import CRASHED, REFUSED
 from .processes.pool import Died
 from .selection import choose_engines
 from .task_results import Results
@@ -75,10 +75,9 @@ def _setting(engine: Engine) -> Setting:
 
 @dataclass(frozen=True)
 class Task:
-    """A model's case and its settings."""
+    """A question about a model, answered in a process of its own."""
 
     case: ModelCase
-    settings: Settings
 
     @property
     def name(self) -> str:
@@ -89,6 +88,29 @@ class Task:
     def limit(self) -> float:
         """How long it may take [s]: of a thousand joints one second may take an hour."""
         return LIMIT
+
+    def answer(self) -> Any:
+        """Returns what is asked. Raises CaseError."""
+        raise NotImplementedError
+
+    def lost(self, because: str, verdict: str) -> Any:
+        """Returns what stands for the answer of a model that has none."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class RowsTask(Task):
+    """Asks for a model's rows in these settings."""
+
+    settings: Settings
+
+    def answer(self) -> Modelled:
+        """Returns the rows. Raises CaseError if the model does not compile."""
+        return modelled(self.case, self.settings.others, self.settings.own)
+
+    def lost(self, because: str, verdict: str) -> Modelled:
+        """Returns a row that says why there is none."""
+        return lost(self.case, because, verdict)
 
 
 def row_names(case: ModelCase, beside: Settings) -> list[tuple[str, str]] | CaseError:
@@ -116,20 +138,20 @@ def digest(task: Task) -> str | CaseError:
         return error
 
 
-def done(task: Task) -> Modelled | CaseError:
-    """Returns the model's rows, or its mistakes."""
+def _done(task: Task) -> Any | CaseError:
     try:
-        with listening():  # what diverges is said in its row
-            return modelled(task.case, task.settings.others, task.settings.own)
+        with listening():  # what diverges is said in words
+            return task.answer()
     except CaseError as error:
         return error
 
 
-def answered(
-    what: str, function: Callable[[Any], Any], tasks: Sequence[Any], results: Results
-) -> list[Any]:
-    """Returns for each task, of a `case` of a model, its answer, its mistakes, or how it died.
+def answers(
+    what: str, tasks: Sequence[Task], results: Results
+) -> tuple[list[tuple[ModelCase, Any]], list[Mistake]]:
+    """Returns each model with what is asked of it, and the mistakes of those that have no answer.
 
+    A model that ends its process, or takes too long, or is one of a folder, is answered by `lost`.
     What was answered of the same numbers is not asked again.
     """
     words = results.anew("models compiled", digest, dict(enumerate(tasks)))
@@ -138,27 +160,24 @@ def answered(
         for index, word in words.items()
         if not isinstance(word, CaseError | Died)
     }
-    by_key = results.of(what, function, {key: tasks[index] for index, key in keys.items()})
-    return [by_key[keys[k]] if k in keys else words[k] for k in range(len(tasks))]
+    by_key = results.of(what, _done, {key: tasks[index] for index, key in keys.items()})
+    pairs, mistakes = list[tuple[ModelCase, Any]](), list[Mistake]()
+    for k, task in enumerate(tasks):
+        answer = by_key[keys[k]] if k in keys else words[k]
+        if isinstance(answer, CaseError) and not task.case.in_folder:
+            mistakes += answer.mistakes
+            continue
+        if isinstance(answer, CaseError):
+            answer = task.lost("; ".join(m.what for m in answer.mistakes), REFUSED)
+        elif isinstance(answer, Died):
+            answer = task.lost(answer.because, CRASHED)
+        pairs.append((task.case, answer))
+    return pairs, mistakes
 
 
 def measured(
     cases: Sequence[ModelCase], settings: Settings, results: Results
 ) -> tuple[list[Modelled], list[Mistake]]:
-    """Returns the rows of all models, each in a process of its own, and the mistakes of the rest.
-
-    A model that ends its process, or takes too long, has rows that say so.
-    """
-    answers = answered("models", done, [Task(case, settings) for case in cases], results)
-    mistakes: list[Mistake] = []
-    rows: list[Modelled] = []
-    for case, answer in zip(cases, answers, strict=True):
-        if isinstance(answer, CaseError) and not case.in_folder:
-            mistakes += answer.mistakes
-        elif isinstance(answer, CaseError):
-            rows.append(lost(case, "; ".join(m.what for m in answer.mistakes), REFUSED))
-        elif isinstance(answer, Died):
-            rows.append(lost(case, answer.because))
-        else:
-            rows.append(replace(answer, case=case))
-    return rows, mistakes
+    """Returns the rows of all models, and the mistakes of the rest."""
+    pairs, mistakes = answers("models", [RowsTask(case, settings) for case in cases], results)
+    return [replace(row, case=case) for case, row in pairs], mistakes

@@ -1,5 +1,7 @@
-"""Rows filled with what a trial knows by itself."""
+"""The rows of the tables, of whatever is judged: a case in an engine, or a user's model."""
 
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from ....cases.theme import themes
@@ -10,25 +12,69 @@ from .convergence import Convergence
 from .metric import Error, floor, round_to_floor
 
 
+@dataclass(frozen=True)
+class Subject:
+    """The subject of a row: a case, an engine in a setting, and how that realises the case."""
+
+    case: str
+    theme: str
+    source: str
+    engine: str
+    version: str
+    setting: str
+    realised: str
+
+    def row(self, quantity: str, unit: str, verdict: str, **values: Any) -> Comparison:
+        """Returns a row of tolerance.csv; columns that are not named stay empty."""
+        numbers = dict.fromkeys(("step", "error", "when", "rms", "final", "allowed", "ratio"))
+        columns = {**numbers, "protocol": "", "because": "", **values}
+        return Comparison(**asdict(self), quantity=quantity, unit=unit, verdict=verdict, **columns)
+
+    def rungs(self, ladder: str, quantity: str, unit: str, says: Convergence) -> Rungs:
+        """Returns a row of convergence.csv: what the errors by step say."""
+        return Rungs(
+            self.case, self.engine, self.version, self.setting, self.realised, ladder, quantity,
+            unit, says.order, says.order_low, says.order_high, says.limit, says.uncertainty,
+            says.usable_step, says.verdict,
+        )  # fmt: skip
+
+    def steps(
+        self,
+        ladder: str,
+        quantity: str,
+        unit: str,
+        says: Convergence,
+        rounded: Callable[[float], float],
+    ) -> list[StepError]:
+        """Returns rows of steps.csv: the error at each step of a ladder, the smallest first."""
+        head = self.case, self.engine, self.setting, self.realised, ladder, quantity, unit
+        return [StepError(*head, h, rounded(error)) for h, error in sorted(says.errors.items())]
+
+
+def measured(error: Error, least: float, allowed: float | None, when: float | None) -> Any:
+    """Returns the columns of an error, in digits above `least`; `when` [s] it is the largest."""
+    largest = round_to_floor(error.largest, least)
+    return {
+        "error": largest,
+        "when": when if largest else None,
+        "rms": round_to_floor(error.rms, least),
+        "final": round_to_floor(error.final, least),
+        "ratio": None if allowed is None else largest / allowed,
+    }
+
+
+def subject(trial: Trial) -> Subject:
+    """Returns what the rows of a trial are about."""
+    case, engine = trial.case, trial.engine
+    about = " ".join(themes(case)), str(case.origin)
+    return Subject(case.name, *about, engine.name, engine.version, engine.setting, trial.realised)
+
+
 def row(trial: Trial, name: str, word: str, **values: Any) -> Comparison:
     """A row of tolerance.csv for the quantity `name` with the verdict `word`."""
-    columns: dict[str, Any] = dict.fromkeys(("step", "error", "when", "rms", "final", "ratio"))
-    columns |= {"protocol": "", "because": "", "allowed": None} | values
     if name != "audit":
-        columns["allowed"] = trial.allowed(name)
-    return Comparison(
-        case=trial.case.name,
-        theme=" ".join(themes(trial.case)),
-        source=str(trial.case.origin),
-        engine=trial.engine.name,
-        version=trial.engine.version,
-        setting=trial.engine.setting,
-        realised=trial.realised,
-        quantity=name,
-        unit=trial.quantity(name).unit,
-        verdict=word,
-        **columns,
-    )
+        values["allowed"] = trial.allowed(name)
+    return subject(trial).row(name, trial.quantity(name).unit, word, **values)
 
 
 def judged(
@@ -36,58 +82,20 @@ def judged(
 ) -> Comparison:
     """A row of what was measured at the judged step; `when` [s] the error is largest."""
     word, because = verdict
-    least, allowed = floor(trial, name, trial.step), trial.allowed(name)
-    largest = round_to_floor(error.largest, least)
-    return row(
-        trial,
-        name,
-        word,
-        protocol=trial.protocol,
-        step=trial.step,
-        error=largest,
-        when=when if largest else None,
-        rms=round_to_floor(error.rms, least),
-        final=round_to_floor(error.final, least),
-        ratio=None if allowed is None else largest / allowed,
-        because=because,
-    )
+    numbers = measured(error, floor(trial, name, trial.step), trial.allowed(name), when)
+    ran = {"protocol": trial.protocol, "step": trial.step, "because": because}
+    return row(trial, name, word, **ran, **numbers)
 
 
 def rungs(trial: Trial, ladder: Ladder, name: str, convergence: Convergence) -> Rungs:
     """A row of convergence.csv: what the errors by step say."""
-    return Rungs(
-        case=trial.case.name,
-        engine=trial.engine.name,
-        version=trial.engine.version,
-        setting=trial.engine.setting,
-        realised=trial.realised,
-        ladder=ladder.name,
-        quantity=name,
-        unit=trial.quantity(name).unit,
-        order=convergence.order,
-        order_low=convergence.order_low,
-        order_high=convergence.order_high,
-        limit=convergence.limit,
-        uncertainty=convergence.uncertainty,
-        usable_step=convergence.usable_step,
-        verdict=convergence.verdict,
-    )
+    return subject(trial).rungs(ladder.name, name, trial.quantity(name).unit, convergence)
 
 
 def steps(trial: Trial, ladder: Ladder, name: str, convergence: Convergence) -> list[StepError]:
     """Rows of steps.csv: the error at each step of a ladder, the smallest step first."""
     least = floor(trial, name, min(convergence.errors))
-    return [
-        StepError(
-            case=trial.case.name,
-            engine=trial.engine.name,
-            setting=trial.engine.setting,
-            realised=trial.realised,
-            ladder=ladder.name,
-            quantity=name,
-            unit=trial.quantity(name).unit,
-            step=h,
-            error=round_to_floor(error, least),
-        )
-        for h, error in sorted(convergence.errors.items())
-    ]
+    unit = trial.quantity(name).unit
+    return subject(trial).steps(
+        ladder.name, name, unit, convergence, lambda error: round_to_floor(error, least)
+    )

@@ -1,16 +1,15 @@
 """Advice on models of the user's own, in lines."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ....cases.mistake import CaseError, plain
+from ....cases.mistake import plain
 from ...tables.row import BEYOND, DIVERGED
 from ...tables.short_numbers import factor, milliseconds
 
 if TYPE_CHECKING:
     from ....cases.mistake import Mistake
-    from ....cases.model_case import ModelCase
     from ...runs.request import Request
     from ...runs.suite import Report
     from ...search.advice.own_model import OwnAdvice, Recipe, Tried
@@ -19,63 +18,17 @@ if TYPE_CHECKING:
 MARGIN = 2.0  # how often errors have to fit into what is allowed, where nobody says it
 
 
-@dataclass(frozen=True)
-class Task:
-    """A model's case, what its joints may be off [rad, m] (None: as it allows), and a margin."""
-
-    case: "ModelCase"
-    tolerance: float | None
-    margin: float
-
-    @property
-    def name(self) -> str:
-        """The name that progress shows."""
-        return self.case.name
-
-    @property
-    def limit(self) -> float:
-        """The time [s] that it may take."""
-        from ....cases.language.check.work import LIMIT
-
-        return LIMIT
-
-
-def done(task: Task) -> "OwnAdvice | CaseError":
-    """Returns the advice on a model, or its mistakes."""
-    from ....engines.mujoco.callbacks.signal import listening
-    from ...search.advice.own_model import advised
-
-    try:
-        with listening():  # what diverges is said in words
-            return advised(task.case, task.tolerance, task.margin)
-    except CaseError as error:
-        return error
-
-
 def advised_models(
     request: "Request", tolerance: float | None, margin: float
 ) -> "tuple[list[OwnAdvice], list[Mistake]]":
     """Returns the advice on a request's models, each in a process of its own, and the mistakes."""
-    from ...runs.models import answered
-    from ...runs.processes.pool import Died
-    from ...search.advice.own_model import OwnAdvice
+    from ...runs.models import answers
+    from ...search.advice.own_model import AdviceTask
 
-    tasks = [Task(case, tolerance, margin) for case in request.models]
-    advice: list[OwnAdvice] = []
-    mistakes: list[Mistake] = []
+    tasks = [AdviceTask(case, tolerance, margin) for case in request.models]
     with request.results(len(tasks)) as results:
-        answers = answered("models advised", done, tasks, results)
-    for case, answer in zip(request.models, answers, strict=True):
-        if isinstance(answer, Died):
-            answer = OwnAdvice(case.name, "", margin, (), answer.because)
-        elif isinstance(answer, CaseError) and case.in_folder:
-            because = "; ".join(mistake.what for mistake in answer.mistakes)
-            answer = OwnAdvice(case.name, "", margin, (), because)
-        if isinstance(answer, CaseError):
-            mistakes += answer.mistakes
-        else:
-            advice.append(answer)
-    return advice, mistakes
+        pairs, mistakes = answers("models advised", tasks, results)
+    return [advice for _, advice in pairs], mistakes
 
 
 def cures(request: "Request", report: "Report") -> dict[str, str]:

@@ -30,6 +30,7 @@ from ...compare.own_steps import (
     integrator_of,
     steps,
 )
+from ...runs.models import Task
 from ...tables.short_numbers import milliseconds
 
 EVALUATIONS = {"Euler": 1.0, "implicitfast": 1.0, "implicit": 1.6, "RK4": 3.7}
@@ -90,6 +91,26 @@ class OwnAdvice:
     margin: float
     tried: Sequence[Tried]
     because: str = ""
+
+
+@dataclass(frozen=True)
+class AdviceTask(Task):
+    """Asks for the advice on a model.
+
+    tolerance [rad, m]: of all joints; None: what the case allows. margin: how often errors have to
+    fit into it.
+    """
+
+    tolerance: float | None
+    margin: float
+
+    def answer(self) -> OwnAdvice:
+        """Returns the advice. Raises CaseError if the model does not compile."""
+        return advised(self.case, self.tolerance, self.margin)
+
+    def lost(self, because: str, verdict: str) -> OwnAdvice:
+        """Returns no advice, and why."""
+        return OwnAdvice(self.case.name, "", self.margin, (), because)
 
 
 @dataclass(frozen=True)
