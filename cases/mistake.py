@@ -88,10 +88,16 @@ class Source:
 def nearest(word: str, words: Iterable[str]) -> str:
     """A hint: `; did you mean 'crank.angle'?`, or what there is, or nothing."""
     known = list(words)
+    hint = did_you_mean(word, known)
+    return f"; {hint}" if hint else list_hint(known)
+
+
+def did_you_mean(word: str, known: Sequence[str]) -> str:
+    """Returns `did you mean 'crank.angle'?`, or nothing where no word is alike."""
     # To compare two words thoroughly takes long: of very many those that begin or end alike.
     alike = known if len(known) <= MANY else nlargest(MANY, known, key=partial(_ends_alike, word))
     close = get_close_matches(word, alike, n=1, cutoff=0.6)
-    return f"; did you mean {close[0]!r}?" if close else list_hint(known)
+    return f"did you mean {close[0]!r}?" if close else ""
 
 
 def _ends_alike(word: str, other: str) -> int:

@@ -1,9 +1,9 @@
 """Checks the options of an engine that a user gives, and names each mistake with its place."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from ..cases.mistake import did_you_mean
 from .step_scaled import FORMS, tied
 
 Check = Callable[[str, Any], Iterator[str]]
@@ -22,15 +22,10 @@ def mistakes_in(known: Mapping[str, Check]) -> Check:
             if name in known:
                 yield from known[name](f"{where}.{name}", value)
             else:
-                hint = _nearest(name, known) or f"known: {', '.join(known)}"
+                hint = did_you_mean(str(name), [*known]) or f"known: {', '.join(known)}"
                 yield f"{where}.{name}: unknown option; {hint}"
 
     return mistakes
-
-
-def _nearest(word: Any, known: Iterable[str]) -> str:
-    close = get_close_matches(str(word), known, n=1)
-    return f"did you mean {close[0]!r}?" if close else ""
 
 
 def should_be(what: str, right: Callable[[Any], bool], words: Sequence[str] = ()) -> Check:
@@ -38,7 +33,7 @@ def should_be(what: str, right: Callable[[Any], bool], words: Sequence[str] = ()
 
     def mistakes(where: str, value: Any) -> Iterator[str]:
         if not right(value):
-            hint = _nearest(value, words)
+            hint = did_you_mean(str(value), words)
             yield f"{where}: should be {what}, is {value!r}" + (f"; {hint}" if hint else "")
 
     return mistakes

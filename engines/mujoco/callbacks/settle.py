@@ -138,7 +138,8 @@ class Floor:
         self.creeping, self.tangents = len(along), len(along) // len(up)
         self.is_depth = np.arange(len(along) + len(up)) >= self.creeping
         shifts, space = _shifts(model), scene.frame is SPACE
-        self._sinks, self._creeps = -self._ways(up, shifts), self._ways(along, shifts * space)
+        self._sinks = -self._ways(up, shifts)
+        self._creeps = self._ways(along, shifts if space else [])
         rubs = [contact.friction > 0 for contact in (*contacts, *pairs)]
         still = (np.abs(along @ self._qvel) <= STILL) & (not model.opt.noslip_iterations)
         self.sticks = (still | space) & np.repeat(rubs, self.tangents)

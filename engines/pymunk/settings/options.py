@@ -102,9 +102,9 @@ class Numbers:
 
     def __call__(self, step: float) -> Sequence[Choice]:
         """The numbers for a step [s]."""
-        held = self.held.choices(step) if self.held else []
-        known = {choice.name: choice for choice in (*held, eases(step))}
-        asked = [known[name] for name in self.by_scene if name in known]
+        of_joints = self.held.choices(step) if self.held else []
+        by_name = {choice.name: choice for choice in (*of_joints, eases(step))}
+        asked = [by_name[name] for name in self.by_scene if name in by_name]
         return list({choice.name: choice for choice in (*self.always, *asked)}.values())
 
     @property
