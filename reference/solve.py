@@ -31,7 +31,7 @@ from .mechanism.modes.mechanism import Mechanism, PlanarMechanism, SpatialMechan
 from .motion.bodies import Answer, Beside
 from .motion.follow import Followed, follow
 from .refusal import bounded, refusals, unreached
-from .start.assembly import as_good, assembled, closure_of
+from .start.assembly import assembled, closure_of, equally_good_start
 from .start.planar_closure import PlanarClosure
 from .start.spatial_closure import SpatialClosure
 from .states.answer import answered
@@ -170,7 +170,7 @@ def mechanism(case: Case) -> Mechanism:
     closure = closure_of(case)
     q, v = assembled(closure)
     generated = _build(case, closure, q, v)
-    if (other := as_good(closure, q, v)) is not None:
+    if (other := equally_good_start(closure, q, v)) is not None:
         generated.beside = _build(case, closure, *other)
     return generated
 

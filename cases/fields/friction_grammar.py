@@ -80,11 +80,12 @@ def dry(force: str, speed: str, slowness: str, suffix: str) -> Any:
     """
     Speed, Sharpness = (Annotated[float, In(unit, above=0)] for unit in (speed, slowness))
     bounds = _bounds(force, suffix)
+    smooth = _map_type(friction.Smooth, suffix, band=Speed, sharpness=Sharpness)
     fields: dict[str, Any] = {
         "static": (bounds | None, DryFriction.model_fields["static"]),
         "kinetic": (bounds, ...),
-        "smooth": (_map(friction.Smooth, suffix, band=Speed, sharpness=Sharpness) | None, None),
-        "stribeck": (_map(friction.Stribeck, suffix, speed=Speed) | None, None),
+        "smooth": (smooth | None, None),
+        "stribeck": (_map_type(friction.Stribeck, suffix, speed=Speed) | None, None),
     }
     name = f"DryFriction{suffix}"
     written = create_model(
@@ -96,7 +97,7 @@ def dry(force: str, speed: str, slowness: str, suffix: str) -> Any:
 def _bounds(force: str, suffix: str) -> Any:
     """Returns the type of the bounds forward and backward, in this unit; one number gives both."""
     size = Annotated[float, In(force, least=0)]
-    both = _map(friction.Bounds, suffix, forward=size, backward=size)
+    both = _map_type(friction.Bounds, suffix, forward=size, backward=size)
     return Annotated[
         Annotated[friction.Bounds, Made(size, lambda f: friction.Bounds(f, f)), Tag("<plain>")]
         | Annotated[both, Tag("<map>")],
@@ -104,7 +105,7 @@ def _bounds(force: str, suffix: str) -> Any:
     ]
 
 
-def _map(law: Callable[..., object], suffix: str, **units: Any) -> Any:
+def _map_type(law: Callable[..., object], suffix: str, **units: Any) -> Any:
     """Returns the type of what is written as a map of its numbers, each in its unit."""
     fields: dict[str, Any] = {key: (unit, ...) for key, unit in units.items()}
     written = create_model(f"{law.__name__}{suffix}", __base__=Part, __doc__=law.__doc__, **fields)

@@ -114,19 +114,19 @@ def amount(value: object, known: Names = NONE) -> Amount:
     if isinstance(value, str) and re.fullmatch(_LITERAL, value):
         raise NumberMistake(f"should be a number, is {shown(value)}; remove the quotes")
     text = str(value).strip() if short else ""
-    if _formula(text) and all(word == "pi" or word in known.amounts for word in _words(text)):
+    if _is_formula(text) and all(word == "pi" or word in known.amounts for word in _words(text)):
         raise NumberMistake(f"{value!r} is not computed: write {_suggestion(text, known)}")
     raise NumberMistake(f"should be a number, is {shown(value)}")
 
 
 def parameters_in(text: str, parameters: Collection[str]) -> set[str]:
     """The parameters that a text names: as a number, as `-name`, or in a formula."""
-    whole = not _formula(text) or _QUANTITY.fullmatch(text)
+    whole = not _is_formula(text) or _QUANTITY.fullmatch(text)
     words = [text.removeprefix("-")] if whole else _words(text)
     return {word for word in words if word in parameters}
 
 
-def _formula(text: str) -> bool:
+def _is_formula(text: str) -> bool:
     return len(text) <= SHORT and bool(_FORMULA.fullmatch(text))
 
 

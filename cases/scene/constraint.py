@@ -57,7 +57,7 @@ class Edge:
         """Its point; the ground has no blade."""
         return () if self.at.body == GROUND else (self.at,)
 
-    def unfit(self, body: Body | None) -> str | None:
+    def why_unfit(self, body: Body | None) -> str | None:
         """Why the body (None: one that is not known) cannot carry it, in words for the file."""
         if self.at.body == GROUND:
             return "an edge belongs to a body, and not to the ground"

@@ -18,7 +18,7 @@ from .adapter import plain_shapes
 from .adapter.compilation import NOMINAL, compiled, lent, placed, timestep
 from .adapter.inverse_dynamics import answered
 from .adapter.plans import plan, ways
-from .adapter.refuse import not_native, unbuildable, uncompilable
+from .adapter.refuse import uncompilable, why_not_native, why_unbuildable
 from .adapter.run import simulate
 from .model.contact import closed, recipes, worth
 from .model.drive import controls
@@ -30,7 +30,7 @@ from .model.script import commented, control_script, drawn
 from .read.measure import measured
 from .settings import options, settings
 from .settings.knobs import STEPS, cost, knobs
-from .settings.options import as_options, unfit
+from .settings.options import as_options, why_recipe_unfit
 from .settings.snippet import option_notes, snippet
 
 
@@ -76,14 +76,14 @@ class MuJoCo:
         """Natively; if tuned, edges and dry friction also by their laws, feet by a driver."""
         scene, start = with_rods(scene, start)
         refusal = (
-            unbuildable(scene)
-            or unfit(self.options, list(recipes(scene)), worth(scene))
+            why_unbuildable(scene)
+            or why_recipe_unfit(self.options, list(recipes(scene)), worth(scene))
             or (self._shape and plain_shapes.refused(scene, self._shape, self.options))
             or uncompilable(scene, start, self._plan(scene, start))
         )
         if refusal:
             return [Refusal("native", refusal)]
-        without = [Refusal("native", why) for why in not_native(scene)]
+        without = [Refusal("native", why) for why in why_not_native(scene)]
         if without and not self._tuned:
             return without
         each = ways(scene, start, tuned=self._tuned)

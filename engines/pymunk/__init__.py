@@ -17,7 +17,7 @@ from .adapter import plans
 from .adapter.claims import answered
 from .adapter.plain_shapes import OURS, planned, refused, words
 from .adapter.plans import numbers_by_name
-from .adapter.refuse import not_native, unbuildable
+from .adapter.refuse import why_not_native, why_unbuildable
 from .adapter.script import text
 from .callbacks.cut import cuts
 from .callbacks.point_forces import states
@@ -61,10 +61,10 @@ class Pymunk:
     def plans(self, scene: Scene, start: Start) -> Sequence[Plan | Refusal]:
         """Natively; if tuned, dampers, dry friction and edges by their laws, feet by a driver."""
         shape = self._shape
-        refusal = unbuildable(scene) or (shape and refused(scene, shape, self.options))
+        refusal = why_unbuildable(scene) or (shape and refused(scene, shape, self.options))
         if refusal:
             return [Refusal("native", refusal)]
-        without = [Refusal("native", why) for why in not_native(scene, start)]
+        without = [Refusal("native", why) for why in why_not_native(scene, start)]
         if without and not self._tuned:
             return without
         ways = plans.ways(scene, start) if self._tuned else ("native",)

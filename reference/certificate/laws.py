@@ -66,7 +66,7 @@ class Scale:
             return np.zeros(len(v))
         return np.abs(multipliers @ self.base.f_a(t, q))
 
-    def alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
+    def largest_alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
         """The largest acceleration that one force gives alone, or a turn in space: ω × J ω is one.
 
         What spins evenly is not accelerated, and what says so is a sum of such terms.
@@ -107,7 +107,7 @@ class Scale:
         still = self.base.where.velocities(mode.poses(t, q, np.zeros(n)))
         return np.abs([self.base.where.velocities(mode.poses(t, q, e)) - still for e in np.eye(n)])
 
-    def assembled(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
+    def axes_keep_sense(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
         """Whether no body of space turns so far from q that axes which a joint holds may flip.
 
         Rows of right angles hold of both ways in which two axes are in line.
@@ -119,7 +119,7 @@ class Scale:
         a, b = ([poses[name][SPACE.attitude] for name in turning] for poses in both)
         return all(abs(np.dot(x, y)) > EIGHTH for x, y in zip(a, b, strict=True))
 
-    def accelerated(self, mode: Mode, times: Array, y: Array) -> float:
+    def largest_acceleration(self, mode: Mode, times: Array, y: Array) -> float:
         """The largest acceleration at some samples of a motion, or that one force gives alone.
 
         A force may be 0 at one instant, but for its rounding.
@@ -127,7 +127,7 @@ class Scale:
         some = np.unique(np.linspace(0, len(times) - 1, SOME).astype(int)).tolist()
         states = ((float(times[k]), *mode.parted(y[k])) for k in some)
         return worst(
-            max(worst(np.abs(mode.accelerations(t, q, v))), self.alone(mode, t, q, v))
+            max(worst(np.abs(mode.accelerations(t, q, v))), self.largest_alone(mode, t, q, v))
             for t, q, v in states
         )
 
@@ -240,14 +240,14 @@ def eliminated(mode: Mode, scale: Scale, times: Array, y: Array) -> Iterator[Che
     multiplied with each other there, as multipliers need not: the bound tells what that loses.
     """
     errors: dict[str, list[float]] = {}
-    bound, least = LAW, scale.accelerated(mode, times, y)
+    bound, least = LAW, scale.largest_acceleration(mode, times, y)
     for t, q, v in states(mode, times, y, BESIDE, scale):
         by = dependent(mode, t, q, len(v))
         if by is None or not (condition := by.condition(t, q)) < SINGULAR:
             continue
         bound = max(bound, _rounding(mode, condition))
         a = mode.accelerations(t, q, v)
-        size = worst([*np.abs(a), scale.alone(mode, t, q, v), least]) or 1.0
+        size = worst([*np.abs(a), scale.largest_alone(mode, t, q, v), least]) or 1.0
         for name, accelerations in ELIMINATED.items():
             if (other := accelerations(mode, t, q, v)) is not None:
                 errors.setdefault(name, []).append(worst(np.abs(other - a)) / size)
@@ -334,7 +334,7 @@ def states(
         turn, quick = random.uniform(-1.0, 1.0, (2, len(v)))
         for halved in 0.5 ** np.arange(SMALLER):
             place = _closed(mode, t, q, halved * turn * way)
-            if place is not None and (scale is None or scale.assembled(mode, t, q, v, place)):
+            if place is not None and (scale is None or scale.axes_keep_sense(mode, t, q, v, place)):
                 yield t, place, _bound(mode, t, place, v + halved * quick * fastest)
                 break
 

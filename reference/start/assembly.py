@@ -22,7 +22,7 @@ ILL = 5e-3  # of rad or sizes: a chain of 100 has 0.016, shipped mechanisms 0.1 
 SHORT = 1e-9  # of the mechanism's size: a rod of that length has no direction
 
 
-def as_good(
+def equally_good_start(
     closure: PlanarClosure | SpatialClosure, q: Array, v: Array
 ) -> tuple[Array, Array] | None:
     """Another start, as far off along what is determined worst as rounding of the equations allows.

@@ -413,5 +413,5 @@ def test_what_follows_from_a_mistaken_number_is_not_told(
     (mistake,) = mistakes(tmp_path, text).mistakes
     assert "nan" not in mistake.what
     compared = otherwise(limit, "self.low >= self.high", "not self.low < self.high")
-    monkeypatch.setattr(limit.Stops, "unfit", compared.Stops.unfit)
+    monkeypatch.setattr(limit.Stops, "why_unfit", compared.Stops.why_unfit)
     assert any("is nan rad" in mistake.what for mistake in mistakes(tmp_path, text).mistakes)

@@ -21,7 +21,7 @@ from textmech.engines import pymunk
 from textmech.engines.engine import Diverged, Engine, Refusal, Start
 from textmech.engines.foot_contact import Stride, stride
 from textmech.engines.mujoco.adapter.compilation import compiled
-from textmech.engines.mujoco.adapter.refuse import unbuildable
+from textmech.engines.mujoco.adapter.refuse import why_unbuildable
 from textmech.engines.mujoco.callbacks import foot_contact as feet
 from textmech.engines.mujoco.read.poses import poses
 from textmech.engines.mujoco.read.record import Record
@@ -340,4 +340,4 @@ def test_only_feet_need_a_driver() -> None:
     assert found is not None
     assert found.meets == {"left_foot": True, "right_foot": False}
     assert found.stands(lambda at: (0.0, 0.0)) == "left_foot"
-    assert unbuildable(replace(walker, joints={})) is None
+    assert why_unbuildable(replace(walker, joints={})) is None

@@ -167,7 +167,7 @@ def _check_pair(
         yield path, f"{pair.body!r} touches itself"
     elif what := _cannot_touch_body(scene.bodies[pair.body], words[0].partition(".")[2]):
         yield (*path, 0), what
-    elif what := _untouchable(scene.bodies[pair.touched], pair):
+    elif what := _why_not_touched(scene.bodies[pair.touched], pair):
         yield (*path, 1), what
 
 
@@ -178,7 +178,7 @@ def _cannot_touch_body(body: Body, point: str) -> str | None:
     return cannot_touch(body, point)
 
 
-def _untouchable(body: Body, pair: Pair) -> str | None:
+def _why_not_touched(body: Body, pair: Pair) -> str | None:
     """Why nothing can touch the body there, or None."""
     if body.radius is not None:
         where = f"{body.name}.{pair.face}"

@@ -40,12 +40,12 @@ def links(parsed: Parsed, scene: Scene) -> Iterator[Finding]:
     for name, edge in scene.constraints.items():
         path = ("scene", "constraints", name, edge.word)
         yield from _check_points(parsed, scene, path, edge)
-        if what := edge.unfit(scene.bodies.get(edge.at.body)):
+        if what := edge.why_unfit(scene.bodies.get(edge.at.body)):
             yield path, what
     for name, force in scene.forces.items():
         path = ("scene", "forces", name, force.word)
         yield from _check_points(parsed, scene, path, force)
-        if what := force.unfit(scene.bodies):
+        if what := force.why_unfit(scene.bodies):
             yield path, what
         if force.about is not None:
             yield from check_joint(parsed, scene, path, force)

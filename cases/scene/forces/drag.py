@@ -52,7 +52,7 @@ class Drag(Force):
         """Its point; the ground does not move."""
         return () if self.at.body == GROUND else (self.at,)
 
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+    def why_unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """The ground takes no drag; a particle has no edge; an edge has both its keys."""
         if self.at.body == GROUND:
             return "slows the ground; it acts on a body"

@@ -60,7 +60,7 @@ class Force:
         """The inner state at the start, of what has one."""
         raise NotImplementedError
 
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+    def why_unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """Why it cannot act on what it refers to, in words for the case file."""
         return None
 

@@ -60,7 +60,7 @@ class Couple(Force):
         """The bodies' centres: any points would do."""
         return Anchor(self.first, CENTER), Anchor(self.second, CENTER)
 
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+    def why_unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """A particle takes no torque."""
         still = [b for b in (self.first, self.second) if b in bodies and not bodies[b].turns]
         return f"{still[0]!r} is a particle and cannot turn" if still else None
@@ -160,7 +160,7 @@ class Push(Force):
         """Its point; of the ground there is nothing to push."""
         return () if self.at.body == GROUND else (self.at,)
 
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+    def why_unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """The ground takes no push."""
         return "pushes the ground; a push acts on a body" if self.at.body == GROUND else None
 
@@ -182,7 +182,7 @@ class Torque(Force):
         """The body's centre: any point would do."""
         return (Anchor(self.body, CENTER),)
 
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+    def why_unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """A particle takes no torque."""
         turns = self.body not in bodies or bodies[self.body].turns
         return None if turns else f"{self.body!r} is a particle and cannot turn"

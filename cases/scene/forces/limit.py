@@ -82,7 +82,7 @@ class Stops(Limit, Turning):
     high: Annotated[float, In("rad")] | None = None  # the largest
     restitution: Annotated[float, In("1", least=0, most=1)] = 0.0  # of the rate, at a stop
 
-    def unfit(self, bodies: Mapping[str, Body]) -> str | None:
+    def why_unfit(self, bodies: Mapping[str, Body]) -> str | None:
         """It needs one, and with both there has to be something between them."""
         if self.low is None and self.high is None:
             return "needs `low` or `high`, the angle at which the turn ends"

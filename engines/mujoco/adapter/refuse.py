@@ -24,14 +24,14 @@ from .compilation import NOMINAL, compiled
 NO_EDGE = "engine: MuJoCo has no constraint of a velocity across a line that turns with a body"
 
 
-def not_native(scene: Scene) -> list[str]:
+def why_not_native(scene: Scene) -> list[str]:
     """Why MuJoCo has nothing of its own for the scene; our laws have."""
     edges = [NO_EDGE] if scene.constraints else []
     strode = [NO_STRIDE] if strides(scene) else []
     return [*edges, *strode, *(why for _, why in lacking(scene))][:1]
 
 
-def unbuildable(scene: Scene) -> str | None:
+def why_unbuildable(scene: Scene) -> str | None:
     """The first element that has no counterpart."""
     return next(_lacks(scene), None)
 

@@ -86,14 +86,14 @@ def _refused(options: Mapping[str, Any]) -> list[str]:
     """MuJoCo's own objections to the values, when a pin, a contact and a slide step with them."""
     with listening() as warnings, installed(None):
         try:
-            model = mujoco.MjModel.from_xml_string(_trial(options))
+            model = mujoco.MjModel.from_xml_string(_trial_mjcf(options))
             mujoco.mj_step(model, mujoco.MjData(model))
         except ValueError as refusal:
             return [f"mujoco: {' '.join(str(refusal).split())}"]
     return [f"mujoco: {' '.join(warning.split())}" for warning in dict.fromkeys(warnings)]
 
 
-def _trial(options: Mapping[str, Any]) -> str:
+def _trial_mjcf(options: Mapping[str, Any]) -> str:
     """A ball that touches a floor, pinned at its centre, and one that slides with friction.
 
     It hardly touches: what throws out a deep one is no mistake of the options.
@@ -133,7 +133,7 @@ def overlaid(
     common = {
         group.key(name): options[name] for name in SOFT if name in options for group in groups
     }
-    own = dict(_written(options, groups)) | dict(_alone(options.get(EACH, {}), single or {}))
+    own = dict(_by_choice_name(options, groups)) | dict(_alone(options.get(EACH, {}), single or {}))
     first, last = (
         [Choice(name, value, because) for name, value in part.items()] for part in (common, own)
     )
@@ -151,7 +151,9 @@ def _alone(
                     yield f"{of_one(element)}.{name}", value
 
 
-def _written(options: Mapping[str, Any], groups: Sequence[Group]) -> Iterator[tuple[str, Any]]:
+def _by_choice_name(
+    options: Mapping[str, Any], groups: Sequence[Group]
+) -> Iterator[tuple[str, Any]]:
     """Yields the options that stand in one place only."""
     for name, value in options.items():
         if name in ELEMENTS:
@@ -183,7 +185,9 @@ def as_options(choices: Sequence[Choice], *, settled: bool = False) -> dict[str,
     return options | ({"settled": True} if settled else {})
 
 
-def unfit(options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[str]) -> str | None:
+def why_recipe_unfit(
+    options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[str]
+) -> str | None:
     """Why the recipe that is named for contacts has nothing to do with the scene's.
 
     recipes: all that there are; worth: which may do something for the scene, none without contacts.
@@ -192,8 +196,8 @@ def unfit(options: Mapping[str, Any], recipes: Sequence[str], worth: Sequence[st
     if word in (None, "scene") or not worth:
         return None
     if word not in recipes:
-        known = ", ".join(recipes)
-        return f"adapter: contacts: {word} is no recipe for this scene's; known: {known}, scene"
+        known = f"known: {', '.join(recipes)}, scene"
+        return f"adapter: contacts: {word} is no recipe for this scene's; {known}"
     if word == "bounce" and word not in worth:
         return "adapter: contacts: bounce, and no contact of this scene throws anything back"
     return None

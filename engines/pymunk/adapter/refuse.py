@@ -12,14 +12,14 @@ from ..model.edge import NO_EDGE
 from ..model.pair import MOST
 
 
-def not_native(scene: Scene, start: Start) -> list[str]:
+def why_not_native(scene: Scene, start: Start) -> list[str]:
     """Why pymunk has nothing of its own for the scene; our laws and our driver have."""
     edges = [NO_EDGE] if scene.constraints else []
     strode = [NO_STRIDE] if strides(scene) else []
     return [*edges, *strode, *(why for _, why in lacking(scene, start))][:1]
 
 
-def unbuildable(scene: Scene) -> str | None:
+def why_unbuildable(scene: Scene) -> str | None:
     """The first body or joint that has no counterpart; in space everything."""
     if scene.frame is not PLANE:
         return "engine: pymunk moves bodies in a plane, and this scene is in space"

@@ -9,7 +9,7 @@ import math
 
 from ....cases.scene import Contact
 from ..model.chipmunk_state import reading
-from ..model.contact import PASSES, above, tip_radius
+from ..model.contact import PASSES, circle_centre, tip_radius
 from ..model.world import World
 
 BELOW = 1e-12  # m: so deep it has come down for sure
@@ -108,7 +108,7 @@ class Foot:
             self._radius = radius
         *_, cos, sin = self.carrier.pose(length, 0.0)
         normal = self.contact.plane.normal
-        self.shape.unsafe_set_offset(above(normal, self._point, cos, sin, self._size))
+        self.shape.unsafe_set_offset(circle_centre(normal, self._point, cos, sin, self._size))
         stays = self.stands and not strikes
         if (elasticity := 1.0 if stays else 0.0) != self._elasticity:
             self.shape.elasticity = self._elasticity = elasticity

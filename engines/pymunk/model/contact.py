@@ -46,7 +46,7 @@ def circle(scene: Scene, contact: Contact, body: Body) -> Circle:
     if part.radius is None:
         normal, radius = contact.plane.normal, tip_radius(scene)
         point, turned = part.points[contact.at.point], (math.cos(body.angle), math.sin(body.angle))
-        shape = Circle(body, radius, above(normal, point, *turned, radius))
+        shape = Circle(body, radius, circle_centre(normal, point, *turned, radius))
     else:
         shape = Circle(body, part.radius)
     shape.friction = contact.friction
@@ -69,7 +69,7 @@ def only(shape: Circle, plane: ShapeFilter) -> None:
         shape.filter = ShapeFilter(group=GROUP, mask=plane.categories)
 
 
-def above(normal: Vector, point: Vector, cos: float, sin: float, radius: float) -> Vector:
+def circle_centre(normal: Vector, point: Vector, cos: float, sin: float, radius: float) -> Vector:
     """The circle's centre by the normal in ground axes, and the angle's cosine and sine."""
     nx, ny = normal
     return (point[0] + (cos * nx + sin * ny) * radius, point[1] + (cos * ny - sin * nx) * radius)
@@ -86,7 +86,7 @@ class Tip:
         # what already turns at the start stands on the floor; else it strikes in the first step
         self._touched = contact.ideal == "pivot"
 
-    def reflect(self, x: float, y: float, cos: float, sin: float) -> None:
+    def set_elasticity(self, x: float, y: float, cos: float, sin: float) -> None:
         """By its body as it is now: whether it stays on the floor, as in the step before."""
         a, b, nx, ny = self._place
         low = self._level + nx * (x + cos * a - sin * b) + ny * (y + sin * a + cos * b)
@@ -95,10 +95,10 @@ class Tip:
         if self._told != elasticity:
             self._shape.elasticity = self._told = elasticity
 
-    def follow(self, cos: float, sin: float) -> None:
+    def move_circle(self, cos: float, sin: float) -> None:
         """By its body's angle after the step: the circle stands over the point."""
         a, b, nx, ny = self._place
-        self._shape.unsafe_set_offset(above((nx, ny), (a, b), cos, sin, self._radius))
+        self._shape.unsafe_set_offset(circle_centre((nx, ny), (a, b), cos, sin, self._radius))
 
 
 def follower(body: Body, tips: Sequence[Tip], step: float, *, reflects: bool) -> Follow:
@@ -115,11 +115,11 @@ def follower(body: Body, tips: Sequence[Tip], step: float, *, reflects: bool) ->
         if reflects:
             cos, sin = math.cos(angle), math.sin(angle)
             for tip in tips:
-                tip.reflect(x, y, cos, sin)
+                tip.set_elasticity(x, y, cos, sin)
         turned = angle + step * omega
         cos, sin = math.cos(turned), math.sin(turned)
         for tip in tips:
-            tip.follow(cos, sin)
+            tip.move_circle(cos, sin)
 
     return follow
 

@@ -37,7 +37,7 @@ def _touching(world: World, pair: Pair) -> Circle:
     body, radius = world.bodies[pair.body], pair.radius(world.scene.bodies)
     circle = Circle(body, radius or tip_radius(world.scene))
     if not radius:
-        circle.unsafe_set_offset(above(world, pair, 0.0))
+        circle.unsafe_set_offset(circle_centre(world, pair, 0.0))
     circle.friction, circle.elasticity = pair.friction, pair.restitution
     return circle
 
@@ -54,7 +54,7 @@ def _touched(world: World, pair: Pair) -> Circle | Segment:
     return shape
 
 
-def above(world: World, pair: Pair, ahead: float) -> Vector:
+def circle_centre(world: World, pair: Pair, ahead: float) -> Vector:
     """The circle's centre over the point, in its body's axes, so long [s] after now."""
     body, other = _bodies(world, pair)
     turned = body.angle + ahead * body.angular_velocity
@@ -85,7 +85,7 @@ def _over(world: World, pair: Pair, step: float) -> Follow:
     circle = world.pairs[pair.name][0]
 
     def follow(t: float) -> None:
-        circle.unsafe_set_offset(above(world, pair, step))
+        circle.unsafe_set_offset(circle_centre(world, pair, step))
 
     return follow
 

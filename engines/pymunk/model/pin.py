@@ -40,8 +40,8 @@ def laid(state: State, at: Way, way: Way, speed: float, h: float, before: State)
     )
     wx, wy = cos * p - sin * q, sin * p + cos * q
     fx, fy = cos_end * p - sin_end * q, sin_end * p + cos_end * q
-    left = fx * (ux - turning * ey) + fy * (uy + turning * ex) - speed
-    goal = wx * (ux - turning * dy) + wy * (uy + turning * dx) - left / (wx * fx + wy * fy)
+    error = fx * (ux - turning * ey) + fy * (uy + turning * ex) - speed
+    goal = wx * (ux - turning * dy) + wy * (uy + turning * dx) - error / (wx * fx + wy * fy)
     far = LENGTH + h * goal
     return (x + h * vx + dx + far * wx, y + h * vy + dy + far * wy), (wx, wy)
 

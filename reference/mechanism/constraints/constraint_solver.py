@@ -111,7 +111,7 @@ class Banded:
         """M⁻¹ f_bᵀ λ_b."""
         return _sums(self.band.column, self._each(multipliers), len(self.band.M))
 
-    def pulls(self, multipliers: Array) -> Array:
+    def acceleration_sizes(self, multipliers: Array) -> Array:
         """Σ |M⁻¹ f_bᵀ λ_b|."""
         return _sums(self.band.column, np.abs(self._each(multipliers)), len(self.band.M))
 

@@ -32,7 +32,7 @@ class Held(Protocol):
         """M⁻¹ f_bᵀ λ_b (n,): what the multipliers (r,) accelerate."""
         ...
 
-    def pulls(self, multipliers: Array) -> Array:
+    def acceleration_sizes(self, multipliers: Array) -> Array:
         """Σ |M⁻¹ f_bᵀ λ_b| (n,): the sizes of what each multiplier accelerates alone."""
         ...
 
@@ -58,7 +58,7 @@ class Full(NamedTuple):  # made at every state: a frozen dataclass costs three t
         """M⁻¹ f_bᵀ λ_b."""
         return multipliers.dot(self.by_mass)
 
-    def pulls(self, multipliers: Array) -> Array:
+    def acceleration_sizes(self, multipliers: Array) -> Array:
         """Σ |M⁻¹ f_bᵀ λ_b|."""
         return np.abs(multipliers).dot(np.abs(self.by_mass))
 

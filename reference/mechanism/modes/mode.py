@@ -320,5 +320,5 @@ def _at_rest(held: Held, a: Array, free: Array, multipliers: Array) -> Array:
         return a
     size = np.abs(a)
     if ((size <= small) & (size > 0.0)).any():
-        a[size <= CANCELS * (np.abs(free) + held.pulls(multipliers))] = 0.0
+        a[size <= CANCELS * (np.abs(free) + held.acceleration_sizes(multipliers))] = 0.0
     return a

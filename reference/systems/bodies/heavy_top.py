@@ -92,7 +92,7 @@ class HeavyTop(Mode):
         """
         A_O = self.A + self.m * self.l**2
         w = (self.w1, self.w2, self.w3)
-        nutation = Nutation.of(A_O, self.C, self.m * G * self.l, self.theta0, w)
+        nutation = Nutation.starting(A_O, self.C, self.m * G * self.l, self.theta0, w)
         return None if nutation is None else nutation.at(t)
 
     def T(self, t: Any, q: Vector, v: Vector) -> Any:
@@ -166,7 +166,7 @@ class Nutation(Numbered):
     phase: Amplitude  # the amplitude at t = 0
 
     @staticmethod
-    def of(A_O: float, C: float, mgl: float, theta0: float, w: Three) -> "Nutation | None":
+    def starting(A_O: float, C: float, mgl: float, theta0: float, w: Three) -> "Nutation | None":
         """As it starts, with ω = w; None where a root is double that it would have to reach."""
         sin, u0 = math.sin(theta0), math.cos(theta0)
         below, above = 2 * math.sin(theta0 / 2) ** 2, 2 * math.cos(theta0 / 2) ** 2

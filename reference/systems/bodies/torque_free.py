@@ -79,7 +79,7 @@ class TorqueFree(Mode):
         None on the separatrix, where ω turns over once and never again.
         """
         given = (self.psi0, self.theta0, self.phi0)
-        solution = Polhode.of((self.A, self.B, self.C), (self.w1, self.w2, self.w3), given)
+        solution = Polhode.starting((self.A, self.B, self.C), (self.w1, self.w2, self.w3), given)
         if solution is None:
             return None
         r = [self.vx * t, self.vy * t, self.vz * t - self.gravity * t * t / 2]
@@ -139,7 +139,7 @@ class Polhode(Numbered):
     given: Three  # ψ, θ, φ from ground to body axes at t = 0
 
     @staticmethod
-    def of(moments: Three, w: Three, given: Three) -> "Polhode | None":
+    def starting(moments: Three, w: Three, given: Three) -> "Polhode | None":
         """The solution that begins with ω = w, turned as given; None on the separatrix."""
         A, B, C = moments
         # D² − 2 E B: beyond the separatrix ω goes about axis 1, else about axis 3.

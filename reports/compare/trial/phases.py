@@ -31,7 +31,7 @@ class Begun(NamedTuple):
     samples: Samples
 
 
-def moves(trial: Trial) -> bool:
+def start_can_move(trial: Trial) -> bool:
     """Whether something strikes in the reference, and its start can be moved along the motion."""
     scene = trial.case.scene
     still = not any(point.driven for point in scene.points.values())
@@ -112,7 +112,7 @@ class Phases:
     @cached_property
     def moved(self) -> bool:
         """Whether there are any."""
-        return moves(self.trial)
+        return start_can_move(self.trial)
 
     @cached_property
     def _made(self) -> dict[tuple[float, float | None], list[Begun | str]]:

@@ -98,7 +98,7 @@ def rows(advised: Advised) -> list[Advice]:
         return [replace(empty, remains=advised.way.because)]
     empty = replace(empty, shipped_cost=search.cost(advised.shipped))
     if advised.recipes is None:
-        return [replace(empty, **_remains(advised, search))]
+        return [replace(empty, **_nearest_columns(advised, search))]
     return [
         replace(
             empty,
@@ -135,7 +135,7 @@ def _called(part: tuple[str, ...], options: Mapping[str, Any]) -> str:
     return ".".join(part) if value is True else f"{'.'.join(part)} {short_value(value)}"
 
 
-def _remains(tried: Advised, search: Search) -> dict[str, str | float]:
+def _nearest_columns(tried: Advised, search: Search) -> dict[str, str | float]:
     """Describes the run nearest to passing, and why it is no recipe, as columns of advice.csv."""
     assert isinstance(tried.way, Plan)
     nearest = best(search)

@@ -374,6 +374,6 @@ def test_gap_is_the_height_over_the_start() -> None:
 
 def test_who_cannot_carry_one() -> None:
     bob = Body("bob", "particle", 0.7, (), {}, frame=SPACE)
-    assert BLADE.unfit(HAND) is None
-    assert "particle" in (BLADE.unfit(bob) or "")
-    assert "ground" in (replace(BLADE, at=Anchor("ground", "O")).unfit(None) or "")
+    assert BLADE.why_unfit(HAND) is None
+    assert "particle" in (BLADE.why_unfit(bob) or "")
+    assert "ground" in (replace(BLADE, at=Anchor("ground", "O")).why_unfit(None) or "")

@@ -323,7 +323,7 @@ def test_of_what_is_driven_too_T_is_not_known_to_all_its_digits(
 def test_a_hinge_that_is_turned_over_is_seen(tmp_path: Path, monkeypatch: Patch) -> None:
     monkeypatch.setattr(laws.Scale, "turned", lambda self, mode, t, q, n: np.full(n, np.inf))
     assert not broken(solve(case("fan", tmp_path)))
-    monkeypatch.setattr(laws.Scale, "assembled", lambda *given: True)
+    monkeypatch.setattr(laws.Scale, "axes_keep_sense", lambda *given: True)
     assert VORONETS in broken(solve(case("fan", tmp_path)))
 
 
@@ -430,7 +430,7 @@ class Unit(laws.Scale):
     def __init__(self) -> None:
         pass
 
-    def alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
+    def largest_alone(self, mode: Mode, t: float, q: Array, v: Array) -> float:
         return 1.0
 
     def idle(self, mode: Mode, t: float, q: Array, n: int) -> Array:
@@ -439,7 +439,7 @@ class Unit(laws.Scale):
     def turned(self, mode: Mode, t: float, q: Array, n: int) -> Array:
         return np.full(n, np.inf)
 
-    def assembled(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
+    def axes_keep_sense(self, mode: Mode, t: float, q: Array, v: Array, there: Array) -> bool:
         return True
 
 

@@ -110,7 +110,7 @@ def test_what_two_slides_hold_at_zero_rests() -> None:
 @pytest.mark.slow
 @pytest.mark.mutant("what forces leave of no more than their rounding, beside applied ones alone")
 def test_rounding_that_moves_what_is_held_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Full, "pulls", lambda self, multipliers: 0.0)
+    monkeypatch.setattr(Full, "acceleration_sizes", lambda self, multipliers: 0.0)
     with pytest.raises(CaseError, match="the steps shrink to nothing"):
         solve(scenes.parsed(STACKED, tail=scenes.tail(1.0, 41)))
 

@@ -163,7 +163,7 @@ def test_either_side_of_the_separatrix(part: float, about_first: bool):
     Its closed form holds beside it too, where the followed motion has lost a digit or two.
     """
     w1 = part * math.sqrt(FREE_C * (B - FREE_C) / (FREE_A * (FREE_A - B)))
-    solution = Polhode.of((FREE_A, B, FREE_C), (w1, 2.0, 1.0), (0.0, 0.0, 0.0))
+    solution = Polhode.starting((FREE_A, B, FREE_C), (w1, 2.0, 1.0), (0.0, 0.0, 0.0))
     assert solution is not None
     assert solution.about_first == about_first
     system = example("torque_free", w1=w1, w2=2.0, w3=1.0)

@@ -566,7 +566,7 @@ def test_each_start_is_the_same_motion_later() -> None:
         y = np.where(t < strikes, 0.5 - SPEED * t, 0.1 + BACK * SPEED * (t - strikes))
         assert one.wanted("ball.y") == pytest.approx(y, abs=1e-12)
     flies = replace(case, duration=0.1, allow={"ball.y": 1e-2})
-    assert not phases.moves(trial(flies))
+    assert not phases.start_can_move(trial(flies))
 
 
 @pytest.mark.mutant("beside an impact a sample is compared with one side alone")
