@@ -12,7 +12,8 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from types import CodeType
 from typing import Any
 
 DEEP = 20  # terms within each other: a deeper one gets a name, as Python reads no endless nest
@@ -116,8 +117,13 @@ class Compiled:
 
     def _made(self, maths: Any) -> Function:
         names: dict[str, Any] = {"cos": maths.cos, "sin": maths.sin} | self.tape.called
-        exec(compile(self.text, "<formulas>", "exec"), names)
+        exec(_compiled(self.text), names)
         return names["run"]
+
+
+@lru_cache(maxsize=1000)  # a case is solved several times, to be certified
+def _compiled(text: str) -> CodeType:
+    return compile(text, "<formulas>", "exec")
 
 
 class Tape:
