@@ -33,7 +33,9 @@ class Endless(Exception):
         self.time, self.among = NOW.at, among
 
 
-_budget: ContextVar[tuple[float, float, float]] = ContextVar("budget", default=(math.inf,) * 3)
+_budget: ContextVar[tuple[float, float, float]] = ContextVar(
+    "budget", default=(math.inf, math.inf, math.inf)
+)
 """Seconds, when they end on the thread's own clock, and before when they cannot on any."""
 
 
