@@ -34,14 +34,15 @@ def _fine(parts: int) -> Fineness:
 class Limit:
     """The motion for h → 0: y = (qpos, qvel, act) (N, k) at the times (N,) [s], q (N, m) of them.
 
-    errors (N,): by how much two answers differ up to each time, the largest of all coordinates;
-    method: what integrates; fineness: of the finer answer; acts: when [s] a constraint acts first
-    along it, and which.
+    coarser (N, k): y of a second answer, integrated less finely; errors (N,): by how much the two
+    differ up to each time, the largest of all coordinates; method: what integrates; fineness: of
+    the finer answer; acts: when [s] a constraint acts first along it, and which.
     """
 
     times: Array
     y: Array
     q: Array
+    coarser: Array
     errors: Array
     method: str
     fineness: Fineness
@@ -51,10 +52,6 @@ class Limit:
     def error(self) -> float:
         """The largest of its errors."""
         return float(self.errors[-1])
-
-    def known_until(self, within: float) -> float:
-        """Returns the last time [s] up to which its error is no more than that."""
-        return float(self.times[np.searchsorted(self.errors, within, side="right") - 1])
 
 
 def limit(
@@ -80,12 +77,11 @@ def limit(
         if errors[-1] <= within or not equations.steps or affordable < 2:
             break
         finer = 2 ** math.floor(math.log2(min(2 * errors[-1] / within, affordable)))
-        parts = fineness.parts * finer
-        coarse = fine if finer == 2 else equations.followed(times, _coarse(parts // 2))
-        fineness = _fine(parts)
+        fineness = _fine(fineness.parts * finer)
+        coarse = equations.followed(times, _coarse(fineness.parts // 2))
         fine = equations.followed(times, fineness)
     q, method = fine[:, : own.model.nq], equations.method
-    return Limit(times, fine, q, errors, method, fineness, equations.acts)
+    return Limit(times, fine, q, coarse, errors, method, fineness, equations.acts)
 
 
 def repeat_limit(own: OwnModel, exact: Limit, start: mujoco.MjData) -> Array:

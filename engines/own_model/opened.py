@@ -8,7 +8,7 @@ import numpy as np
 
 from ...cases.fields.number import Amount, NumberMistake, check_angle, check_unit
 from ...cases.mistake import CaseError, Mistake, Path, nearest
-from ...cases.model_case import JOINTS, Law, ModelCase, ModelStart
+from ...cases.model_case import JOINTS, TOLERANCE, Law, ModelCase, ModelStart
 from ...cases.trajectory import Array
 from .model import OwnModel, compiled, compiled_text, drawn_rates, drawn_start
 from .numbers import element_name
@@ -30,11 +30,15 @@ class Opened:
 
     @property
     def joint_bars(self) -> Array:
-        """The bar of each velocity (n,), rad or m; the least of all where its joint has none."""
-        each = np.full(self.own.model.nv, min(self.bars.values()))
-        for quantity, bar in self.bars.items():
-            if quantity.of == "joint":
-                each[quantity.first : quantity.first + quantity.wide] = bar
+        """The bar of each velocity (n,), rad or m; the least of its unit where its joint has none.
+
+        Without any of its unit it is what a model alone is allowed.
+        """
+        each = np.empty(self.own.model.nv)
+        for joint in joint_quantities(self.own.model):
+            like = [bar for q, bar in self.bars.items() if (q.of, q.unit) == ("joint", joint.unit)]
+            bar = self.bars.get(joint, min(like, default=TOLERANCE))
+            each[joint.first : joint.first + joint.wide] = bar
         return each
 
 

@@ -86,7 +86,7 @@ def modelled(
                         [*_certificates(case, parts)])  # fmt: skip
     parts.append(motion(own, result.limit))
     certificates = [*_certificates(case, parts)]
-    if result.known <= KNOWN * min(ready.bars.values()):
+    if result.judges:
         certificates.append(_limit_certificate(case, result))
     own_errors = result.settings[0].errors
     off = any(e.off is None or e.off.max() > ready.bars[q] for q, e in own_errors.items())
@@ -155,23 +155,23 @@ def _row(
     q: Quantity,
     error: Error,
 ) -> Comparison:
-    bar, setting, known = result.bars[q], stepped.setting, result.known
+    bar, setting, doubt = result.bars[q], stepped.setting, result.doubts[q]
     words = [shown.of(q)] if setting.name == OWN else []
     verdict, numbers = DIVERGED, {}
     if error.off is None:
         words.append("its own step diverges")
     else:
         size = metric.error(error.off, error.off * 0.0)
-        least = max(known, DIGITS * size.largest)
+        least = max(doubt, DIGITS * size.largest)
         numbers = measured(size, least, bar, float(result.times[size.at]))
         largest = numbers["error"]
-        if largest - known > bar:
+        if largest - doubt > bar:
             verdict = BEYOND
-        elif largest + known <= bar:
+        elif largest + doubt <= bar:
             verdict = AGREES
         else:
             verdict = REFUSED
-            words.append(f"the limit is known to {known:.0e} only")
+            words.append(f"the limit is known to {doubt:.0e} {q.unit}".rstrip() + " only")
         if result.late:
             words.append(f"judged until {result.until:.3g} s: {result.late}")
     return about.row(
@@ -199,8 +199,7 @@ def _certificates(case: ModelCase, parts: Sequence[Part]) -> Iterator[Certificat
 
 
 def _limit_certificate(case: ModelCase, result: Steps) -> Certificate:
-    """The row of the limit's own error."""
-    bound = KNOWN * min(result.bars.values())
-    error = result.known
-    return Certificate(case.name, case.title, result.limit.method, "error of the limit", error,
-                       bound, error, "", "holds")  # fmt: skip
+    """The row of the limit's own error: the largest of a quantity's over what is allowed."""
+    share = max(doubt / result.bars[q] for q, doubt in result.doubts.items())
+    return Certificate(case.name, case.title, result.limit.method, "error of the limit", share,
+                       KNOWN, result.known, "", "holds")  # fmt: skip

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...cases.model_case import ModelCase
+from ...cases.model_case import TOLERANCE, ModelCase
 from ...cases.trajectory import Array
 from ...engines.own_model.limit import (
     INTEGRATORS,
@@ -85,11 +86,13 @@ class Stepped:
 class Steps:
     """A model at its steps: its limit, until when it is judged [s], and each setting.
 
-    late: why it is not judged to the end.
+    doubts: by quantity, how well the limit is known until then. late: why it is not judged to the
+    end.
     """
 
     limit: Limit
     until: float
+    doubts: Mapping[Quantity, float]
     settings: Sequence[Stepped]
     note: str = ""
     bars: Mapping[Quantity, float] = field(default_factory=dict[Quantity, float])
@@ -97,8 +100,13 @@ class Steps:
 
     @property
     def known(self) -> float:
-        """The error bound [rad, m] of the limit as far as it is judged."""
-        return _limit_error(self.limit, self.until)
+        """The error bound [rad, m] of the limit's coordinates as far as it is judged."""
+        return float(self.limit.errors[len(self.times) - 1])
+
+    @property
+    def judges(self) -> bool:
+        """Whether the limit is known well enough of every quantity to judge steps."""
+        return all(doubt <= KNOWN * self.bars[q] for q, doubt in self.doubts.items())
 
     @property
     def times(self) -> Array:
@@ -160,13 +168,18 @@ def steps(
     asked = settings_of(own, others, named)
     times = times_of(case, [setting.step for setting in asked])
     exact, until, late = limit_and_horizon(opened, times)
+    last = np.flatnonzero(times <= until)[-1]
+    doubts = {q: float(doubt[last]) for q, doubt in limit_doubts(opened, exact).items()}
     note = PAIRS if apart_by_pairs(own.model) else ""
-    rows = [in_setting(opened, setting, exact, until) for setting in asked]
-    return Steps(exact, until, rows, note, bars, late)
+    rows = [in_setting(opened, setting, exact, doubts, until) for setting in asked]
+    return Steps(exact, until, doubts, rows, note, bars, late)
 
 
-def _limit_error(exact: Limit, until: float) -> float:
-    return float(exact.errors[np.searchsorted(exact.times, until, side="right") - 1])
+def limit_doubts(opened: Opened, exact: Limit) -> dict[Quantity, Array]:
+    """Returns by quantity (N,) how far apart the limit's two answers are up to each time."""
+    answers = (Motion(opened.own, exact.times, y) for y in (exact.coarser, exact.y))
+    off = differences([*opened.bars], *answers)
+    return {quantity: np.maximum.accumulate(sizes(values)) for quantity, values in off.items()}
 
 
 def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
@@ -176,7 +189,8 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
     as far as it is known at all. Raises NoLimit.
     """
     own, bars = opened.own, opened.bars
-    within = KNOWN * min(bars.values())
+    within = KNOWN * min((bar for q, bar in bars.items() if q.unit in ("rad", "m")),
+                         default=TOLERANCE)  # fmt: skip
     exact = limit(own, times, within=within)
     a, b = (Motion(own, exact.times, y) for y in (exact.y, disturbed(own, exact)))
     off = differences([*bars], a, b)
@@ -184,9 +198,14 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
     far = np.flatnonzero(np.max(ratios, axis=0) > 1.0) if ratios else []
     end = float(exact.times[-1])
     horizon = float(exact.times[max(far[0] - 1, 0)]) if len(far) else end
-    known = exact.known_until(within)
-    if known < horizon and known >= exact.times[min(FEWEST, len(exact.times) - 1)]:
-        return exact, known, f"later the limit is known to {exact.error:.0e} only"
+    doubts = limit_doubts(opened, exact)
+    first = {q: int(np.searchsorted(doubt, KNOWN * bars[q], side="right")) - 1
+             for q, doubt in doubts.items()}  # fmt: skip
+    rough = min(first, key=lambda q: first[q])
+    known = float(exact.times[first[rough]])
+    if known < horizon and first[rough] >= min(FEWEST, len(exact.times) - 1):
+        doubt = f"{doubts[rough][-1]:.0e} {rough.unit}".rstrip()
+        return exact, known, f"later {rough.name} of the limit is known to {doubt} only"
     late = f"later a disturbance of {DISTURBED:g} exceeds a tolerance" if horizon < end else ""
     return exact, horizon, late
 
@@ -199,7 +218,13 @@ def disturbed(own: OwnModel, exact: Limit) -> Array:
     return repeat_limit(own, exact, start)
 
 
-def in_setting(opened: Opened, setting: Setting, exact: Limit, until: float) -> Stepped:
+def in_setting(
+    opened: Opened,
+    setting: Setting,
+    exact: Limit,
+    doubts: Mapping[Quantity, float],
+    until: float,
+) -> Stepped:
     """Returns how far off a setting is from the limit at each rung of its ladder."""
     own, bars = opened.own, opened.bars
     off: dict[float, dict[Quantity, Array]] = {}
@@ -212,7 +237,8 @@ def in_setting(opened: Opened, setting: Setting, exact: Limit, until: float) -> 
             break
         y = samples if k == 1.0 else y
         off[h] = differences([*bars], wanted, Motion(own, exact.times, samples))
-    errors = {quantity: _error(quantity, off, setting, exact, until, bars) for quantity in bars}
+    judged = exact.times <= until
+    errors = {q: _error(q, off, setting, judged, doubts[q], bar) for q, bar in bars.items()}
     return Stepped(setting, y, errors)
 
 
@@ -220,21 +246,19 @@ def _error(
     quantity: Quantity,
     off: Mapping[float, Mapping[Quantity, Array]],
     setting: Setting,
-    exact: Limit,
-    until: float,
-    bars: Mapping[Quantity, float],
+    judged: NDArray[np.bool_],
+    doubt: float,
+    bar: float,
 ) -> Error:
-    judged, known = exact.times <= until, _limit_error(exact, until)
     ladder = {h: by_quantity[quantity][judged] for h, by_quantity in off.items()}
     at_own = ladder.get(setting.step)
     over_time = None if at_own is None else np.asarray(sizes(at_own))
     if not ladder:
         return Error(over_time, None)
-    floor = max(CLEAR * known, ROUNDING)
-    bar = bars[quantity]
+    floor = max(CLEAR * doubt, ROUNDING)
     largest = {h: float(np.max(sizes(errors))) for h, errors in ladder.items()}
     clear = {h: errors for h, errors in ladder.items() if largest[h] > floor}
-    sure = instants(largest, bar - known)  # of a rough limit less is known to be within
+    sure = instants(largest, bar - doubt)  # of a rough limit less is known to be within
     if not clear:
         return Error(over_time, sure)
     zero = np.zeros_like(next(iter(clear.values())))

@@ -21,7 +21,6 @@ from ....engines.own_model.seen import joint_of, motion_at_steps, servos, shakin
 from ....engines.own_model.static import ALONE, SHORT, Suspicion, short_times, suspicions
 from ...compare.own_seen import ARRIVES, FEW, LATE, seen
 from ...compare.own_steps import (
-    KNOWN,
     OWN,
     Setting,
     Stepped,
@@ -195,7 +194,7 @@ def _advice_on(asked: _Asked, suspected: Sequence[Suspicion]) -> Tried:
     first, *others = result.settings
     known = f"{exact.method}, known to {result.known:.0e} rad or m"
     base = Tried(own.started, known, result.until, _recipe(asked, first, h))
-    if result.known > KNOWN * min(asked.opened.bars.values()):
+    if not result.judges:
         return replace(base, because="its limit is not known well enough to judge steps")
     shown = seen(asked.opened, exact, result.until).joints
     coarsest = _coarsest(asked, result, [first, *others[-len(named) :]])
@@ -261,7 +260,7 @@ def _coarsest(asked: _Asked, result: Steps, rows: Sequence[Stepped]) -> list[Rec
         recipe, best = recipes[k], _cheapest(recipes)
         if recipe.keeps is None and (best is None or 2 * recipe.cost < best.cost):
             setting = replace(rows[k].setting, step=rows[k].setting.step / FINE)
-            finer = in_setting(asked.strict, setting, result.limit, result.until)
+            finer = in_setting(asked.strict, setting, result.limit, result.doubts, result.until)
             recipes[k] = _recipe(asked, finer, _step(asked, finer))
     return recipes
 

@@ -184,13 +184,28 @@ def test_small_steps_reach_what_the_integrators_do(
     assert good is (what == "nothing")
 
 
-def test_it_is_known_until_two_answers_part() -> None:
-    errors = np.array([0.0, 1e-9, 1e-5, 1e-2])
-    exact = limits.Limit(
-        np.arange(4.0), np.zeros((4, 2)), np.zeros((4, 1)), errors, "", limits._fine(1)
-    )
-    assert exact.error == 1e-2
-    assert [exact.known_until(within) for within in (1e-10, 1e-5, 1e-4, 1.0)] == [0, 2, 2, 3]
+@pytest.mark.mutant("a limit's error beside an answer of the same tolerances")
+@pytest.mark.parametrize("was", [None, "equations.followed(times, _coarse(fineness.parts // 2))"])
+def test_both_answers_of_a_finer_limit_are_new(
+    was: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no small steps are taken they would else be one, and the error 0."""
+    asked: list[ours.Fineness] = []
+
+    class Noted(ours.Equations):
+        def followed(self, times: np.ndarray, to: ours.Fineness) -> np.ndarray:
+            asked.append(to)
+            return super().followed(times, to)
+
+    monkeypatch.setattr(ours, "MOST", 10)
+    monkeypatch.setattr(ours, "LEAST", 10)
+    module: Any = limits if was is None else otherwise(limits, was, "fine")
+    monkeypatch.setattr(module, "Equations", Noted)
+    module.limit(compiled_text(TWO_KINDS), SHORT, within=1e-5)
+    assert len(asked) > 2
+    coarse, fine = asked[-2:]
+    other = coarse.smooth > fine.smooth and coarse.parts * 2 == fine.parts
+    assert other is (was is None)
 
 
 def test_a_disturbance_is_followed_as_finely_as_the_limit() -> None:

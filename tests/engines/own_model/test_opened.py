@@ -9,7 +9,14 @@ from given.otherwise import otherwise
 from textmech.cases.fields.number import Amount
 from textmech.cases.fields.signal import Signal
 from textmech.cases.mistake import CaseError, Path, Source
-from textmech.cases.model_case import JOINTS, ModelCase, ModelStart, RandomRates, of_model
+from textmech.cases.model_case import (
+    JOINTS,
+    TOLERANCE,
+    ModelCase,
+    ModelStart,
+    RandomRates,
+    of_model,
+)
 from textmech.engines.own_model import quantities as module
 from textmech.engines.own_model.opened import opened
 from textmech.engines.own_model.quantities import Motion, differences, quantities
@@ -32,6 +39,14 @@ def case_of(**changes: object) -> ModelCase:
 
 def numbers(*values: float) -> tuple[Amount, ...]:
     return tuple(map(Amount, values))
+
+
+def test_a_joint_without_a_bar_has_that_of_its_unit() -> None:
+    """Neither of a force nor of an energy; without any the bar of a model alone."""
+    allow = {"turn.angle": Amount(0.2), "shift.shift": Amount(0.01), "energy": Amount(1e-9)}
+    bars = opened(case_of(allow=allow)).joint_bars.tolist()
+    assert bars == [0.01, 0.01, 0.01, 0.2, 0.2, 0.2, 0.2, 0.01, 0.2, 0.2, 0.2]
+    assert set(opened(case_of(allow={"energy": Amount(50.0)})).joint_bars) == {TOLERANCE}
 
 
 def test_a_start_is_set_over_the_keyframe_by_name() -> None:

@@ -201,3 +201,30 @@ def test_a_disturbance_that_grows_ends_what_is_judged(monkeypatch: pytest.Monkey
     monkeypatch.setattr(own_steps, "DISTURBED", 1e-4)
     assert stepped(ACROBOT, tolerance=2e-4).until < 1.0
     assert stepped(ACROBOT, tolerance=1.0).until == pytest.approx(1.0, abs=0.05)
+
+
+PRESSED = BALL.replace('<geom size=".1" mass="1"/>', '<geom size=".1" mass="1"/><site name="s" '
+                       'type="box" size=".2 .2 .2"/>').replace(
+    "</worldbody>", '</worldbody><sensor><touch name="press" site="s"/></sensor>')  # fmt: skip
+
+
+@pytest.mark.mutant("a limit that is compared with itself")
+def test_the_limit_of_a_force_is_known_by_its_own_unit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two answers that are 1e-4 m apart may be newtons apart, and that is the allowed place's."""
+    allow = {"press.value": Amount(1.0), "ball.place": Amount(0.1)}
+    case = replace(of_model("", "MJCF", "model", PRESSED), allow=allow)
+    ready, times = opened(case), np.linspace(0.0, 0.2, 11)
+    exact = limit(ready.own, times)
+    coarser = exact.y.copy()
+    coarser[6:, 2] -= 1e-4  # m, of the contact's depth
+    rough = replace(exact, coarser=coarser)
+    place, press = sorted(own_steps.limit_doubts(ready, rough).items(), key=lambda d: d[0].name)
+    assert place[1].tolist() == pytest.approx([0.0] * 6 + [1e-4] * 5)
+    assert press[1][5] == 0.0
+    assert press[1][6] > 0.3  # N
+    monkeypatch.setattr(own_steps, "limit", lambda *given, **within: rough)
+    _, until, late = own_steps.limit_and_horizon(ready, times)
+    assert until == times[5]
+    assert late.startswith("later press.value of the limit is known to ")
+    same = otherwise(own_steps, "(exact.coarser, exact.y)", "(exact.y, exact.y)")
+    assert not any(doubt.any() for doubt in same.limit_doubts(ready, rough).values())
