@@ -25,7 +25,8 @@ def replace(folder: Path, texts: Texts | Callable[[], Texts]) -> None:
     """Writes the texts, or bytes, under their names; waits while another process writes there.
 
     texts: also as a function, which is asked when no other process can write there any more.
-    Raises OSError if the folder cannot take them: then it holds what it held.
+    Raises OSError if the folder cannot take them: then it holds what it held, or, where a file
+    resists after another is renamed, what every reader refuses as it does after a kill.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with locked(folder):
