@@ -7,12 +7,17 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from given import scenes
 from given.laws.certified import broken
 
 from textmech.cases.fields.friction import Bounds
 from textmech.cases.scene.forces.limit import Rope, Stops
+from textmech.cases.scene.observe import motion_of
+from textmech.cases.trajectory import Trajectory
+from textmech.reference.certificate import one_sided_checks
+from textmech.reference.certificate.reading import Size
 from textmech.reference.mechanism.constraints.constraint import Constraint
 from textmech.reference.mechanism.constraints.constraint_terms import FIRST, SECOND, Along, Turning
 from textmech.reference.mechanism.modes import blow, element, unilateral
@@ -304,6 +309,16 @@ MISTAKES: dict[str, tuple[Callable[[pytest.MonkeyPatch], object], list[str], set
         ["a rail that rubs"], {FRICTION},
     ),
 }  # fmt: skip
+
+
+@pytest.mark.parametrize(("jump", "errors"), [(0.0, []), (1e-15, []), (3e-6, [1e-6])])
+def test_what_rounding_leaves_of_a_speed_is_no_blow(jump: float, errors: list[float]) -> None:
+    """Above the floor, where a velocity has nothing to jump for."""
+    scene = scenes.parsed(SCENES["a disk that bounces"]).scene
+    before, after = np.array([[[0.0, 0.6, 0.0, vx, -1.0, 8.0]] for vx in (3.0, 3.0 + jump)])
+    motions = [motion_of(scene, Trajectory(np.zeros(1), {"d": row}, {})) for row in (before, after)]
+    blow_of = one_sided_checks._Blow(scene, *motions, Size(1.0, 1.0, 3.0, 8.0), ends=False)
+    assert [*blow_of.errors([*one_sided_checks.sides(scene)])] == pytest.approx(errors)
 
 
 @pytest.mark.slow
