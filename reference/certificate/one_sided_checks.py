@@ -410,7 +410,7 @@ class _Blow:
     def _jump(self) -> float:
         """The largest jump of a velocity, or of a rate, relative to the motion's."""
         before, after = self.before.trajectory.states, self.after.trajectory.states
-        jumps = np.array([after[name][0] - rows[0] for name, rows in before.items()])
+        jumps = np.array([after[name][0] - before[name][0] for name in self.scene.bodies])
         moves, turns = np.abs(jumps[:, VX:OMEGA]).max(), np.abs(jumps[:, OMEGA]).max()
         return float(max(moves / self.size.speed, turns / self.size.rate))
 

@@ -316,7 +316,10 @@ def test_what_rounding_leaves_of_a_speed_is_no_blow(jump: float, errors: list[fl
     """Above the floor, where a velocity has nothing to jump for."""
     scene = scenes.parsed(SCENES["a disk that bounces"]).scene
     before, after = np.array([[[0.0, 0.6, 0.0, vx, -1.0, 8.0]] for vx in (3.0, 3.0 + jump)])
-    motions = [motion_of(scene, Trajectory(np.zeros(1), {"d": row}, {})) for row in (before, after)]
+    inner = {"muscle": np.zeros((1, 1))}  # which jumps by no blow
+    motions = [
+        motion_of(scene, Trajectory(np.zeros(1), {"d": row} | inner, {})) for row in (before, after)
+    ]
     size = Size(1.0, 1.0, 3.0, 8.0)
     blow_of = one_sided_checks._Blow(scene, motions[0], motions[1], size, ends=False)
     assert [*blow_of.errors([*one_sided_checks.sides(scene)])] == pytest.approx(errors)
