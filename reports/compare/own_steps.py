@@ -18,6 +18,7 @@ from ...engines.own_model.limit import (
     PAIRS,
     WORDS,
     Limit,
+    NoLimit,
     apart_by_pairs,
     limit,
     repeat_limit,
@@ -198,6 +199,8 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
     far = np.flatnonzero(np.max(ratios, axis=0) > 1.0) if ratios else []
     end = float(exact.times[-1])
     horizon = float(exact.times[max(far[0] - 1, 0)]) if len(far) else end
+    if horizon == exact.times[0] < end:  # of which nobody learns how it moves
+        raise NoLimit(f"a disturbance of {DISTURBED:g} exceeds a tolerance at once")
     doubts = limit_doubts(opened, exact)
     first = {q: int(np.searchsorted(doubt, KNOWN * bars[q], side="right")) - 1
              for q, doubt in doubts.items()}  # fmt: skip

@@ -228,3 +228,12 @@ def test_the_limit_of_a_force_is_known_by_its_own_unit(monkeypatch: pytest.Monke
     assert late.startswith("later press.value of the limit is known to ")
     same = otherwise(own_steps, "(exact.coarser, exact.y)", "(exact.y, exact.y)")
     assert not any(doubt.any() for doubt in same.limit_doubts(ready, rough).values())
+
+
+@pytest.mark.mutant("a model that agrees at its start alone")
+def test_a_tolerance_below_the_disturbance_judges_nothing() -> None:
+    case = replace(of_model("", "MJCF", "model", ACROBOT), allow={"energy": Amount(1e-12)})
+    with pytest.raises(NoLimit, match="a disturbance of 1e-09 exceeds a tolerance at once"):
+        steps(case, opened(case))
+    agrees = otherwise(own_steps, "if horizon == exact.times[0] < end:", "if False:")
+    assert agrees.steps(case, opened(case)).until == 0.0
