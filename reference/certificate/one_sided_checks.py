@@ -27,7 +27,7 @@ from .reading import Size
 
 FORCES = 1e-9  # of the largest of a side: friction's is a product, and what is more is no rounding
 BLOWS = 1e-9  # of the motion's speed: rates are those of states that the events end, to 1e-12
-ROUNDING = 1e-12  # of the motion's speed: a jump that is less is no blow
+ROUNDING = 1e-12  # of it: events end states to that, and a blow is held to no less than BLOWS
 SLOW = 1e-8  # of the motion's speed: a slip that is less sticks but for rounding
 NEAR = 1e-10  # of the motion's size: what is nearer touches, for whoever asks
 APART = 1e-8  # of it: what is further off does not touch, and strikes nothing

@@ -205,10 +205,10 @@ def limit_and_horizon(opened: Opened, times: Array) -> tuple[Limit, float, str]:
     first = {q: int(np.searchsorted(doubt, KNOWN * bars[q], side="right")) - 1
              for q, doubt in doubts.items()}  # fmt: skip
     rough = min(first, key=lambda q: first[q])
-    known = float(exact.times[first[rough]])
-    if known < horizon and first[rough] >= min(FEWEST, len(exact.times) - 1):
+    until = float(exact.times[first[rough]])
+    if until < horizon and first[rough] >= min(FEWEST, len(exact.times) - 1):
         doubt = f"{doubts[rough][-1]:.0e} {rough.unit}".rstrip()
-        return exact, known, f"later {rough.name} of the limit is known to {doubt} only"
+        return exact, until, f"later {rough.name} of the limit is known to {doubt} only"
     late = f"later a disturbance of {DISTURBED:g} exceeds a tolerance" if horizon < end else ""
     return exact, horizon, late
 
